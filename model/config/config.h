@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/units.h"
+
+namespace sheaf {
+
+// The structs below only hold values: names, defaults, ranges, units and meanings of all parameters
+// are declared in parameters.cpp, and `sheaf config` prints them.
+
+enum class Fidelity : std::uint8_t { kFunctional, kTimed };
+enum class Scheme : std::uint8_t { kSingle, kMasked };
+enum class FlowControl : std::uint8_t { kTile, kCredits };
+enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
+enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };
+enum class FilmFormat : std::uint8_t { kUnorm8, kHalf, kFloat, kExact };
+enum class CacheMode : std::uint8_t { kNormal, kPerfect, kAbsent };
+enum class MeasureScope : std::uint8_t { kTile, kFrame };
+
+struct Triple {
+  double x = 0, y = 0, z = 0;
+  bool operator==(const Triple&) const = default;
+};
+
+struct RunSpec {
+  Fidelity fidelity{};
+  Cycles max_cycles{};
+  bool keep_all{};
+};
+
+struct ImageSpec {
+  std::uint32_t width{}, height{};
+  std::string heat_maps;
+};
+
+struct SceneSpec {
+  std::optional<double> reflectance;
+  Triple background;
+};
+
+struct CameraSpec {
+  std::string name;
+  std::optional<Triple> position, look_at;
+  std::optional<double> yfov;
+};
+
+struct LightSpec {
+  std::optional<Triple> position;
+  std::optional<double> intensity;
+};
+
+struct RenderSpec {
+  std::uint32_t recursion_level{};
+  double weight_cutoff{};
+};
+
+struct KdTreeSpec {
+  double traversal_cost{}, intersection_cost{}, empty_bonus{};
+  std::uint32_t max_depth{};
+};
+
+struct FlowSpec {
+  FlowControl control{};
+  std::uint32_t tile_size{};
+  std::uint32_t credits{};
+};
+
+struct PacketSpec {
+  std::uint32_t size{};
+};
+
+struct PrimarySourceSpec {
+  Cycles interval{};
+};
+
+struct ArbiterSpec {
+  ArbiterPolicy policy{};
+};
+
+struct RayCacheSpec {
+  std::string heuristic;
+  std::uint32_t cells{};
+  std::optional<double> pos_relative;
+  VictimPolicy victim{};
+  Cycles timeout{};
+  std::uint32_t rays_per_cycle{};
+  Cycles latency{};
+};
+
+struct PacketFifoSpec {
+  std::uint32_t depth{};
+  Cycles latency{};
+};
+
+/// Shared by the traversal, intersection and shader units.
+struct UnitSpec {
+  std::uint32_t count{};
+  std::uint32_t contexts{};
+  std::uint32_t lanes{};
+  Cycles initiation_interval{};
+  Cycles latency{};
+};
+
+struct LinkSpec {
+  Cycles latency{};
+  Cycles memory_latency{};
+  Bytes memory_width{};
+};
+
+struct CacheSpec {
+  CacheMode mode{};
+  Bytes capacity{}, line{};
+  std::uint32_t ways{}, mshrs{};
+  Cycles hit_latency{};
+};
+
+struct L2Spec {
+  CacheMode mode{};
+  Bytes capacity{}, line{};
+  std::uint32_t ways{}, banks{}, mshrs{};
+  Cycles hit_latency{};
+};
+
+struct DramSpec {
+  Cycles latency{};
+  Bytes bytes_per_cycle{};
+};
+
+struct FilmSpec {
+  FilmFormat format{};
+};
+
+struct MeasureSpec {
+  bool coherence{};
+  MeasureScope scope{};
+};
+
+struct ClockSpec {
+  double frequency{};
+};
+
+/// Every parameter of a run, resolved and checked.
+struct Config {
+  RunSpec run;
+  ImageSpec image;
+  SceneSpec scene;
+  CameraSpec camera;
+  LightSpec light;
+  RenderSpec render;
+  KdTreeSpec kdtree;
+  ClockSpec clock;
+  FlowSpec flow;
+  PacketSpec packet;
+  Scheme traversal_scheme{};
+  PrimarySourceSpec primary_source;
+  ArbiterSpec packet_arbiter;
+  RayCacheSpec ray_cache;
+  PacketFifoSpec packet_fifo;
+  UnitSpec traversal_unit, intersection_unit, shader_unit;
+  LinkSpec link;
+  CacheSpec node_cache, triangle_cache, attribute_cache, texture_cache, film_cache;
+  L2Spec l2;
+  DramSpec dram;
+  FilmSpec film;
+  MeasureSpec measure;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "config/parameters.h"
+
+namespace sheaf {
+namespace {
+
+void declare_run(ParameterTable& t, Config& c) {
+  t.choice("run.fidelity", c.run.fidelity, Fidelity::kTimed,
+           {{"functional", Fidelity::kFunctional}, {"timed", Fidelity::kTimed}},
+           "How much of time is simulated: none (same pipeline, untimed), or event-driven cycles");
+  t.count("run.max_cycles", c.run.max_cycles, 0, 0, kMaxCount, "cycles",
+          "End the run, marked as partial, after this many cycles; 0 = no limit");
+  t.flag("run.keep_all", c.run.keep_all, false,
+         "Build every unit that the configuration allows, needed by the scene or not");
+  t.count("image.width", c.image.width, 640, 1, 16384, "pixels", "Width of the picture");
+  t.count("image.height", c.image.height, 480, 1, 16384, "pixels", "Height of the picture");
+  t.text("image.heat_maps", c.image.heat_maps, "",
+         "Per-pixel counters written as EXR layers, comma-separated: rays, node_visits, "
+         "triangle_tests");
+  t.real("render.weight_cutoff", c.render.weight_cutoff, 0.0, 0.0, 1.0, "1",
+         "A ray whose largest weight component is at or below this is not spawned; 0 drops none "
+         "but rays of weight zero");
+  t.count("render.recursion_level", c.render.recursion_level, 1, 0, 100, "bounces",
+          "Reflection and refraction rays are traced up to this depth");
+  t.optional_real("scene.reflectance", c.scene.reflectance, 0.0, 1.0, "1",
+                  "Gives every material this mirror weight; off keeps the scene's own");
+  t.triple("scene.background", c.scene.background, {0.35, 0.45, 0.6}, 0.0, 1e30, "radiance",
+           "Radiance that a ray leaving the scene brings back, linear RGB");
+  t.text("camera.name", c.camera.name, "", "Camera of the scene to use; empty = the first");
+  t.optional_triple("camera.position", c.camera.position, "scene units", "Overrides the camera");
+  t.optional_triple("camera.look_at", c.camera.look_at, "scene units",
+                    "Point at which an overridden camera looks; off = centre of the scene");
+  t.optional_real("camera.yfov", c.camera.yfov, 1.0, 170.0, "degrees",
+                  "Vertical field of view of the camera");
+  t.optional_triple("light.position", c.light.position, "scene units",
+                    "Replaces all lights by one white point light here");
+  t.optional_real("light.intensity", c.light.intensity, 0.0, 1e30, "candela",
+                  "Intensity of the light that light.position puts there; off = lights the scene's "
+                  "centre like a sun of irradiance pi");
+}
+
+void declare_pipeline(ParameterTable& t, Config& c) {
+  t.frequency("clock.frequency", c.clock.frequency, 1e9, 1e3, 1e12, "Core clock of the machine");
+  t.count("packet.size", c.packet.size, 16, 1, 64, "rays", "Rays of a full packet");
+  t.choice("traversal.scheme", c.traversal_scheme, Scheme::kMasked,
+           {{"single", Scheme::kSingle}, {"masked", Scheme::kMasked}},
+           "How a packet walks the kd-tree: ray by ray, or together with an active mask");
+  t.choice("flow.control", c.flow.control, FlowControl::kTile,
+           {{"tile", FlowControl::kTile}, {"credits", FlowControl::kCredits}},
+           "What keeps the spawned rays within bounds: finishing a tile before the next begins, or "
+           "admitting a primary packet only when its worst case fits");
+  t.count("flow.tile_size", c.flow.tile_size, 16, 1, 1024, "pixels", "Side of a square tile");
+  t.count("flow.credits", c.flow.credits, 0, 0, kMaxCount, "rays",
+          "Worst-case rays that credits flow control admits; 0 = the worst case of one tile");
+  t.count("primary_source.interval", c.primary_source.interval, 4, 1, kMaxLatency, "cycles",
+          "Cycles between two primary packets");
+  t.choice("packet_arbiter.policy", c.packet_arbiter.policy, ArbiterPolicy::kAlternate,
+           {{"alternate", ArbiterPolicy::kAlternate},
+            {"primary_first", ArbiterPolicy::kPrimaryFirst},
+            {"secondary_first", ArbiterPolicy::kSecondaryFirst}},
+           "Which packet a free traversal context gets");
+  t.text("ray_cache.heuristic", c.ray_cache.heuristic, "dir",
+         "How rays are sorted: none, dir, mdir(x), fastpos, pos(x) or opos");
+  t.count("ray_cache.cells", c.ray_cache.cells, 0, 0, 65536, "cells",
+          "Cells of the ray cache; 0 = as many as the heuristic has keys (dir and fastpos 8, "
+          "mdir(x) x, pos 64)");
+  t.optional_real("pos.relative", c.ray_cache.pos_relative, 0.0, 1.0, "1",
+                  "The x of pos(x) as a fraction of the squared scene diagonal instead of squared "
+                  "world units");
+  t.choice("ray_cache.victim", c.ray_cache.victim, VictimPolicy::kFullest,
+           {{"fullest", VictimPolicy::kFullest},
+            {"oldest", VictimPolicy::kOldest},
+            {"lru", VictimPolicy::kLru}},
+           "Which cell is evicted when a ray needs a new one and none is free");
+  t.count("ray_cache.timeout", c.ray_cache.timeout, 0, 0, kMaxCount, "cycles",
+          "A cell that has been open for longer leaves as a packet; 0 = never");
+  t.count("ray_cache.rays_per_cycle", c.ray_cache.rays_per_cycle, 4, 1, 64, "rays",
+          "Rays that the ray cache takes in a cycle");
+  t.count("ray_cache.latency", c.ray_cache.latency, 4, 1, kMaxLatency, "cycles",
+          "From a ray's arrival to its cell's departure at the earliest");
+  t.count("packet_fifo.depth", c.packet_fifo.depth, 16, 1, kMaxLatency, "packets",
+          "Packets that the FIFO between ray cache and arbiter holds");
+  t.count("packet_fifo.latency", c.packet_fifo.latency, 2, 1, kMaxLatency, "cycles",
+          "From a packet's entry into the FIFO to its exit at the earliest");
+}
+
+void declare_unit(ParameterTable& t, const std::string& name, UnitSpec& spec,
+                  const UnitSpec& defaults, const std::string& step) {
+  t.count(name + ".count", spec.count, defaults.count, 1, 64, "units", "Number of these units");
+  t.count(name + ".contexts", spec.contexts, defaults.contexts, 1, 64, "packets",
+          "Packets in flight in one unit");
+  t.count(name + ".lanes", spec.lanes, defaults.lanes, 1, 64, "lanes",
+          "SIMD lanes; a packet takes ceil(packet.size / lanes) issue slots for " + step);
+  t.count(name + ".initiation_interval", spec.initiation_interval, defaults.initiation_interval, 1,
+          kMaxLatency, "cycles", "Cycles that one issue slot occupies the pipeline");
+  t.count(name + ".latency", spec.latency, defaults.latency, 1, kMaxLatency, "cycles",
+          "From the last slot's issue to the result, cache hit latency not included");
+}
+
+void declare_units(ParameterTable& t, Config& c) {
+  declare_unit(t, "traversal_unit", c.traversal_unit,
+               {.count = 2, .contexts = 8, .lanes = 8, .initiation_interval = 1, .latency = 4},
+               "one kd-tree node");
+  declare_unit(t, "intersection_unit", c.intersection_unit,
+               {.count = 2, .contexts = 4, .lanes = 8, .initiation_interval = 1, .latency = 12},
+               "one triangle");
+  declare_unit(t, "shader_unit", c.shader_unit,
+               {.count = 1, .contexts = 4, .lanes = 4, .initiation_interval = 4, .latency = 40},
+               "one hit");
+  t.count("link.latency", c.link.latency, 4, 1, kMaxLatency, "cycles",
+          "Latency of every link between two units");
+  t.count("link.memory_latency", c.link.memory_latency, 8, 1, kMaxLatency, "cycles",
+          "Latency of the link between a private cache and the L2, each way");
+  t.bytes("link.memory_width", c.link.memory_width, 32, 1, 4096,
+          "Bytes a cycle that the L2 returns to one private cache");
+  t.choice("film.format", c.film.format, FilmFormat::kFloat,
+           {{"unorm8", FilmFormat::kUnorm8},
+            {"half", FilmFormat::kHalf},
+            {"float", FilmFormat::kFloat},
+            {"exact", FilmFormat::kExact}},
+           "Number format in which a pixel's contributions are accumulated");
+}
+
+void declare_cache(ParameterTable& t, const std::string& name, CacheSpec& spec,
+                   const CacheSpec& defaults, const std::string& meaning) {
+  t.choice(name + ".mode", spec.mode, CacheMode::kNormal,
+           {{"normal", CacheMode::kNormal},
+            {"perfect", CacheMode::kPerfect},
+            {"absent", CacheMode::kAbsent}},
+           meaning + ": normal, always hitting, or not there");
+  t.bytes(name + ".capacity", spec.capacity, defaults.capacity, 16, kMaxCacheBytes,
+          "Capacity of one instance");
+  t.bytes(name + ".line", spec.line, defaults.line, 16, 4096, "Line size; a power of two");
+  t.count(name + ".ways", spec.ways, defaults.ways, 1, 1024, "ways", "Associativity (LRU)");
+  t.count(name + ".mshrs", spec.mshrs, defaults.mshrs, 1, 4096, "lines",
+          "Lines that can be outstanding at a time");
+  t.count(name + ".hit_latency", spec.hit_latency, defaults.hit_latency, 1, kMaxLatency, "cycles",
+          "Latency of a hit");
+}
+
+void declare_memory(ParameterTable& t, Config& c) {
+  const CacheSpec l1{.mode = CacheMode::kNormal,
+                     .capacity = 16384,
+                     .line = 64,
+                     .ways = 4,
+                     .mshrs = 8,
+                     .hit_latency = 2};
+  CacheSpec film = l1;
+  film.capacity = 8192;
+  declare_cache(t, "node_cache", c.node_cache, l1, "kd-tree nodes, one per traversal unit");
+  declare_cache(t, "triangle_cache", c.triangle_cache, l1,
+                "Leaf lists and triangles, one per intersection unit");
+  declare_cache(t, "attribute_cache", c.attribute_cache, l1,
+                "Vertex attributes and materials, one per shader unit");
+  declare_cache(t, "texture_cache", c.texture_cache, l1, "Texels, one per shader unit");
+  declare_cache(t, "film_cache", c.film_cache, film, "Write-back cache of the film's pixels");
+  t.choice("l2.mode", c.l2.mode, CacheMode::kNormal,
+           {{"normal", CacheMode::kNormal},
+            {"perfect", CacheMode::kPerfect},
+            {"absent", CacheMode::kAbsent}},
+           "Shared second-level cache: normal, always hitting, or not there");
+  t.bytes("l2.capacity", c.l2.capacity, 524288, 64, kMaxCacheBytes, "Capacity over all banks");
+  t.bytes("l2.line", c.l2.line, 64, 16, 4096,
+          "Line size; a power of two, at least the largest private line");
+  t.count("l2.ways", c.l2.ways, 8, 1, 1024, "ways", "Associativity (LRU)");
+  t.count("l2.banks", c.l2.banks, 4, 1, 64, "banks",
+          "Banks, interleaved by line; a power of two; each takes one request a cycle");
+  t.count("l2.mshrs", c.l2.mshrs, 16, 1, 4096, "lines", "Lines outstanding in one bank");
+  t.count("l2.hit_latency", c.l2.hit_latency, 12, 1, kMaxLatency, "cycles",
+          "From a bank's acceptance to the data");
+  t.count("dram.latency", c.dram.latency, 100, 1, kMaxLatency, "cycles",
+          "From a request's arrival to its first data, unloaded");
+  t.bytes("dram.bytes_per_cycle", c.dram.bytes_per_cycle, 16, 1, 65536,
+          "Bytes of bandwidth per core cycle");
+}
+
+void declare_tree_and_measures(ParameterTable& t, Config& c) {
+  t.real("kdtree.traversal_cost", c.kdtree.traversal_cost, 15.0, 1e-3, 1e6, "cost",
+         "SAH cost of visiting an inner node");
+  t.real("kdtree.intersection_cost", c.kdtree.intersection_cost, 20.0, 1e-3, 1e6, "cost",
+         "SAH cost of one triangle test");
+  t.real("kdtree.empty_bonus", c.kdtree.empty_bonus, 0.8, 0.0, 1.0, "1",
+         "Factor on the cost of a split that cuts off empty space");
+  t.count("kdtree.max_depth", c.kdtree.max_depth, 0, 0, 64, "nodes",
+          "Deepest path allowed; 0 = 8 + 1.3 log2(triangles)");
+  t.flag("measure.coherence", c.measure.coherence, false,
+         "Measure c_t and c_i in an untimed pass of single rays");
+  t.choice("measure.scope", c.measure.scope, MeasureScope::kTile,
+           {{"tile", MeasureScope::kTile}, {"frame", MeasureScope::kFrame}},
+           "Set of rays over which distinct nodes and triangles are counted: a tile of primary "
+           "pixels, or the frame");
+}
+
+}  // namespace
+
+ParameterTable declare_parameters(Config& config) {
+  ParameterTable table;
+  declare_run(table, config);
+  declare_pipeline(table, config);
+  declare_units(table, config);
+  declare_memory(table, config);
+  declare_tree_and_measures(table, config);
+  return table;
+}
+
+}  // namespace sheaf
