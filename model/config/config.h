@@ -15,7 +15,7 @@ namespace sheaf {
 
 enum class Fidelity : std::uint8_t { kFunctional, kTimed };
 enum class Scheme : std::uint8_t { kSingle, kMasked };
-enum class FlowControl : std::uint8_t { kTile, kCredits };
+enum class FlowPolicy : std::uint8_t { kTile, kCredits };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
 enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };
 enum class FilmFormat : std::uint8_t { kUnorm8, kHalf, kFloat, kExact };
@@ -65,7 +65,7 @@ struct KdTreeSpec {
 };
 
 struct FlowSpec {
-  FlowControl control{};
+  FlowPolicy control{};
   std::uint32_t tile_size{};
   std::uint32_t credits{};
 };
@@ -108,6 +108,7 @@ struct UnitSpec {
 
 struct LinkSpec {
   Cycles latency{};
+  std::uint32_t depth{};
   Cycles memory_latency{};
   Bytes memory_width{};
 };

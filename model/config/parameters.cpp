@@ -46,8 +46,8 @@ void declare_pipeline(ParameterTable& t, Config& c) {
   t.choice("traversal.scheme", c.traversal_scheme, Scheme::kMasked,
            {{"single", Scheme::kSingle}, {"masked", Scheme::kMasked}},
            "How a packet walks the kd-tree: ray by ray, or together with an active mask");
-  t.choice("flow.control", c.flow.control, FlowControl::kTile,
-           {{"tile", FlowControl::kTile}, {"credits", FlowControl::kCredits}},
+  t.choice("flow.control", c.flow.control, FlowPolicy::kTile,
+           {{"tile", FlowPolicy::kTile}, {"credits", FlowPolicy::kCredits}},
            "What keeps the spawned rays within bounds: finishing a tile before the next begins, or "
            "admitting a primary packet only when its worst case fits");
   t.count("flow.tile_size", c.flow.tile_size, 16, 1, 1024, "pixels", "Side of a square tile");
@@ -110,6 +110,8 @@ void declare_units(ParameterTable& t, Config& c) {
                "one hit");
   t.count("link.latency", c.link.latency, 4, 1, kMaxLatency, "cycles",
           "Latency of every link between two units");
+  t.count("link.depth", c.link.depth, 8, 1, kMaxLatency, "messages",
+          "Messages that a link between two units holds, on the way and waiting");
   t.count("link.memory_latency", c.link.memory_latency, 8, 1, kMaxLatency, "cycles",
           "Latency of the link between a private cache and the L2, each way");
   t.bytes("link.memory_width", c.link.memory_width, 32, 1, 4096,

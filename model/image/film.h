@@ -14,9 +14,10 @@ namespace sheaf {
 /// Frame buffer into which weighted contributions are accumulated in one number format:
 ///   unorm8   each sum clamped to [0, 1] and rounded to 8 bits after every contribution
 ///   half     rounded to IEEE binary16 after every contribution (saturating at 65504)
-///   float    rounded to IEEE binary32 after every contribution
+///   float    rounded to IEEE binary32 after every contribution (saturating at FLT_MAX)
 ///   exact    no rounding until read: the result does not depend on the order of contributions
-/// Contributions are finite and not negative; anything else is a bug and is refused by add().
+/// Contributions are finite and not negative; anything else is a bug, which add() refuses with
+/// std::logic_error, as it does a pixel outside the film.
 class Film {
  public:
   virtual ~Film() = default;

@@ -21,22 +21,19 @@ struct CounterInfo {
 #define SHEAF_STATS_INFO(name, unit, meaning) ::sheaf::CounterInfo{#name, unit, meaning},
 #define SHEAF_STATS_VALUE(name, unit, meaning) f(::sheaf::CounterInfo{#name, unit, meaning}, name);
 #define SHEAF_STATS_SUM(name, unit, meaning) name += other.name;
-#define SHEAF_STATS(Struct, LIST)                                        \
-  struct Struct {                                                        \
-    LIST(SHEAF_STATS_MEMBER)                                             \
-    [[nodiscard]] static std::span<const ::sheaf::CounterInfo> infos() { \
-      static constexpr ::sheaf::CounterInfo kInfos[] = {LIST(SHEAF_STATS_INFO)}; \
-      return kInfos;                                                     \
-    }                                                                    \
-    template <typename F>                                                \
-    void for_each(F&& f) const {                                         \
-      LIST(SHEAF_STATS_VALUE)                                            \
-    }                                                                    \
-    Struct& operator+=(const Struct& other) {                            \
-      LIST(SHEAF_STATS_SUM)                                              \
-      return *this;                                                      \
-    }                                                                    \
-    [[nodiscard]] bool operator==(const Struct&) const = default;        \
+#define SHEAF_STATS(Struct, LIST)                                                                  \
+  struct Struct {                                                                                  \
+    LIST(SHEAF_STATS_MEMBER)                                                                       \
+    [[nodiscard]] static std::span<const ::sheaf::CounterInfo> infos() {                           \
+      static constexpr ::sheaf::CounterInfo kInfos[] = {LIST(SHEAF_STATS_INFO)};                   \
+      return kInfos;                                                                               \
+    }                                                                                              \
+    template <typename F>                                                                          \
+    void for_each(F&& f) const {LIST(SHEAF_STATS_VALUE)} Struct& operator+=(const Struct& other) { \
+      LIST(SHEAF_STATS_SUM)                                                                        \
+      return *this;                                                                                \
+    }                                                                                              \
+    [[nodiscard]] bool operator==(const Struct&) const = default;                                  \
   }
 
 }  // namespace sheaf

@@ -7,6 +7,7 @@
 
 #include "kdtree/kd_tree.h"
 #include "scene/scene.h"
+#include "stats/counters.h"
 #include "traversal/ray_packet.h"
 
 namespace sheaf {
@@ -26,18 +27,15 @@ using TraceLog = std::vector<TraceStep>;
 /// Counts of the coherence measures. "Packet" counts one for a whole packet (each masked pass
 /// counted), "lane" counts active lanes; under masked traversal the lane counts equal the sums over
 /// the rays traced one by one.
-struct TraceCounts {
-  std::uint64_t packet_inner_visits = 0;
-  std::uint64_t packet_leaf_visits = 0;
-  std::uint64_t packet_triangle_tests = 0;
-  std::uint64_t lane_inner_visits = 0;
-  std::uint64_t lane_leaf_visits = 0;
-  std::uint64_t lane_triangle_tests = 0;
-  std::uint64_t passes = 0;  ///< direction-sign configurations traversed
-
-  TraceCounts& operator+=(const TraceCounts& other);
-  [[nodiscard]] bool operator==(const TraceCounts&) const = default;
-};
+#define SHEAF_TRACE_COUNTERS(X)                                                               \
+  X(packet_inner_visits, "nodes", "Inner nodes visited by packets, each pass counted")        \
+  X(packet_leaf_visits, "nodes", "Leaves visited by packets, each pass counted")              \
+  X(packet_triangle_tests, "tests", "Triangles tested by packets")                            \
+  X(lane_inner_visits, "nodes", "Inner nodes visited, summed over active lanes")              \
+  X(lane_leaf_visits, "nodes", "Leaves visited, summed over active lanes")                    \
+  X(lane_triangle_tests, "tests", "Triangles tested, summed over active lanes")               \
+  X(passes, "passes", "Direction-sign configurations traversed")
+SHEAF_STATS(TraceCounts, SHEAF_TRACE_COUNTERS);
 
 enum class TraversalScheme : std::uint8_t { kSingle, kMasked };
 

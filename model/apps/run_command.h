@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sheaf {
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> config;
+  std::vector<std::string> settings;  ///< key=value, in order
+  std::filesystem::path out;          ///< empty: results/<name of the scene>
+  bool quiet = false;                 ///< no summary on standard output
+};
+
+/// `sheaf run`: loads, builds, simulates and writes the result folder. Returns an exit code; throws
+/// Error for what the user can mend.
+int run_command(const RunOptions& options);
+
+/// `sheaf info`: what a scene holds and needs.
+int info_command(const std::filesystem::path& scene);
+
+}  // namespace sheaf

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "channels/clock_domain.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sheaf {
+namespace {
+
+// How often the monitor is asked whether to go on: often enough to answer Ctrl-C at once, seldom
+// enough not to be felt.
+constexpr std::uint64_t kMonitorInterval = 1U << 14;
+
+}  // namespace
+
+ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
+    : sc_module(name), period_(period) {
+  SC_HAS_PROCESS(ClockDomain);
+  SC_METHOD(advance);
+}
+
+std::size_t ClockDomain::add(Agent& agent) {
+  if (agents_.size() == kMaxAgents) throw std::length_error("too many agents in a clock domain");
+  agents_.push_back(&agent);
+  return agents_.size() - 1;
+}
+
+Cycles ClockDomain::cycle_at(const sc_core::sc_time& offset) const {
+  return kernel_cycle_ + (offset.value() + period_.value() - 1) / period_.value();
+}
+
+Cycles ClockDomain::cycle_at_kernel_offset(const sc_core::sc_time& offset) const {
+  const auto at = sc_core::sc_time_stamp().value() + offset.value();
+  return (at + period_.value() - 1) / period_.value();
+}
+
+Cycles ClockDomain::next_foreign_cycle() const {
+  if (!sc_core::sc_pending_activity_at_future_time()) return kNever;
+  return cycle_at(sc_core::sc_time_to_pending_activity());
+}
+
+void ClockDomain::run_until(Cycles limit) {
+  limit_ = limit;
+  for (;;) {
+    const Cycles next = wheel_.peek();
+    if (next >= limit_ || next >= end_) return;
+    now_ = next;
+    const std::size_t agent = wheel_.pop(next);
+    const Cycles again = agents_[agent]->wake(next);
+    if (again != kNever) wheel_.schedule(agent, again);
+    if (stopped_) return;
+    if (++num_wakes_ % kMonitorInterval == 0 && monitor_ && monitor_(now_)) {
+      stopped_ = true;
+      return;
+    }
+  }
+}
+
+void ClockDomain::advance() {
+  kernel_cycle_ = sc_core::sc_time_stamp().value() / period_.value();
+  if (finished_) {
+    sc_core::sc_stop();
+    return;
+  }
+  if (sc_core::sc_pending_activity_at_current_time()) {
+    next_trigger(sc_core::SC_ZERO_TIME);  // whatever else happens now comes first
+    return;
+  }
+  for (;;) {
+    const Cycles foreign = next_foreign_cycle();
+    run_until(foreign < end_ ? foreign : end_);
+    if (stopped_) return finish();
+    if (limit_ == 0) continue;  // the kernel was touched: ask it again how far to go
+    const Cycles next = wheel_.peek();
+    if (next == kNever && foreign == kNever) {
+      ran_dry_ = true;
+      return finish();
+    }
+    if (next >= end_ && foreign >= end_) return finish();
+    // Another SystemC process is due no later than the next agent: let it act first.
+    next_trigger(offset(foreign));
+    return;
+  }
+}
+
+// The kernel's time has stayed behind; simulated time ends with the last thing that happened.
+void ClockDomain::finish() {
+  finished_ = true;
+  next_trigger(offset(now_ > kernel_cycle_ ? now_ : kernel_cycle_));
+}
+
+}  // namespace sheaf

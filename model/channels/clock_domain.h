@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "base/units.h"
+#include "channels/timing_wheel.h"
+
+namespace sheaf {
+
+/// Something that acts in time within a clock domain: a unit, a cache level, a memory.
+class Agent {
+ public:
+  virtual ~Agent() = default;
+
+  /// Does everything due at cycle `now`, and may go on to later cycles as long as they stay below
+  /// the domain's horizon(). Returns the next cycle at which it has something to do of its own
+  /// accord, or kNever.
+  virtual Cycles wake(Cycles now) = 0;
+
+  /// One line on what holds this agent up, empty if nothing does; for the message about a machine
+  /// that cannot go on.
+  [[nodiscard]] virtual std::string stuck_reason() const { return {}; }
+};
+
+/// All agents of one clock, ordered in time by one calendar that is driven by one SystemC process.
+///
+/// Units meet only through channels whose latency is at least one cycle, so agents due in the same
+/// cycle do not see each other's doing and their order is that of their registration. An agent may
+/// run ahead of the calendar to just below the next time at which any other agent is due; nothing
+/// can reach it before. The SystemC kernel is entered when another SystemC process has something
+/// to do, not once for every hand-over.
+class ClockDomain : public sc_core::sc_module {
+ public:
+  /// `period`: one clock cycle. At most kMaxAgents agents.
+  ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period);
+
+  static constexpr std::size_t kMaxAgents = 512;
+
+  /// Registers an agent; its index is its rank among those due in the same cycle.
+  std::size_t add(Agent& agent);
+
+  /// Wakes `agent` at `time` or earlier.
+  void schedule(std::size_t agent, Cycles time) { wheel_.schedule(agent, time); }
+
+  /// The running agent may act on its own at any cycle below this one.
+  [[nodiscard]] Cycles horizon() {
+    const Cycles next = wheel_.peek();
+    return next < limit_ ? next : limit_;
+  }
+
+  [[nodiscard]] const sc_core::sc_time& period() const { return period_; }
+  /// The local time offset to pass along a TLM call made at cycle `now`.
+  [[nodiscard]] sc_core::sc_time offset(Cycles now) const {
+    return period_ * static_cast<double>(now - kernel_cycle_);
+  }
+  /// The inverse: the cycle that lies `offset` after the time at which this domain was entered,
+  /// rounded up.
+  [[nodiscard]] Cycles cycle_at(const sc_core::sc_time& offset) const;
+  /// The same for a caller outside the domain: the cycle that lies `offset` after the kernel's time.
+  [[nodiscard]] Cycles cycle_at_kernel_offset(const sc_core::sc_time& offset) const;
+
+  /// Called by whoever notified a SystemC event from within an agent: the kernel has to be asked
+  /// again how far the domain may go.
+  void kernel_touched() { limit_ = 0; }
+
+  /// Ends the simulation after the current agent returns.
+  void stop() { stopped_ = true; }
+  void set_end(Cycles end) { end_ = end; }
+  /// Called every few thousand wake-ups with the current cycle; returns true to stop.
+  void set_monitor(std::function<bool(Cycles)> monitor) { monitor_ = std::move(monitor); }
+
+  /// The cycle of the last wake-up.
+  [[nodiscard]] Cycles now() const { return now_; }
+  [[nodiscard]] bool stopped() const { return stopped_; }
+  /// True if the calendar ran empty without stop() having been called.
+  [[nodiscard]] bool ran_dry() const { return ran_dry_; }
+  [[nodiscard]] std::uint64_t num_wakes() const { return num_wakes_; }
+
+ private:
+  void advance();
+  void run_until(Cycles limit);
+  void finish();
+  [[nodiscard]] Cycles next_foreign_cycle() const;
+
+  const sc_core::sc_time period_;
+  TimingWheel<kMaxAgents / 64> wheel_;
+  std::vector<Agent*> agents_;
+  std::function<bool(Cycles)> monitor_;
+  Cycles now_ = 0;
+  Cycles kernel_cycle_ = 0;  ///< sc_time_stamp() in cycles
+  Cycles limit_ = 0;
+  Cycles end_ = kNever;
+  std::uint64_t num_wakes_ = 0;
+  bool stopped_ = false;
+  bool ran_dry_ = false;
+  bool finished_ = false;
+};
+
+/// Where a channel reports to: an agent, its domain, and the earliest time at which one of the
+/// agent's input channels has something for it.
+class Inbox {
+ public:
+  void bind(ClockDomain& domain, std::size_t agent) {
+    domain_ = &domain;
+    agent_ = agent;
+  }
+  void expect(Cycles arrival) {
+    if (arrival < next_) next_ = arrival;
+    domain_->schedule(agent_, arrival);
+  }
+  /// Wakes the agent without any input being there (a slot became free, a count changed).
+  void nudge(Cycles time) { domain_->schedule(agent_, time); }
+  [[nodiscard]] Cycles next() const { return next_; }
+  void set_next(Cycles next) { next_ = next; }
+
+ private:
+  ClockDomain* domain_ = nullptr;
+  std::size_t agent_ = 0;
+  Cycles next_ = kNever;
+};
+
+}  // namespace sheaf

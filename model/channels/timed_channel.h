@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+#include <vector>
+
+#include "base/units.h"
+#include "channels/clock_domain.h"
+
+namespace sheaf {
+
+/// Producer's side of a timed channel. The names follow sc_fifo's; every call gives the caller's
+/// local cycle, since units run ahead of the kernel.
+template <typename T>
+class TimedOut : public virtual sc_core::sc_interface {
+ public:
+  /// Slots that a producer can fill at `now`. A slot that was read at a cycle is free from the
+  /// next cycle on.
+  [[nodiscard]] virtual std::size_t num_free(Cycles now) const = 0;
+  /// False, and nothing happens, if no slot is free.
+  virtual bool nb_write(const T& value, Cycles now) = 0;
+  /// Wakes `producer` once a slot becomes free after a refused write.
+  virtual void notify_when_free(Inbox& producer) = 0;
+};
+
+/// Consumer's side of a timed channel.
+template <typename T>
+class TimedIn : public virtual sc_core::sc_interface {
+ public:
+  /// True if the oldest value has arrived by `now`.
+  [[nodiscard]] virtual bool has_arrived(Cycles now) const = 0;
+  /// Takes the oldest value; has_arrived() must hold.
+  virtual T read(Cycles now) = 0;
+  /// Arrival of the oldest value, or kNever.
+  [[nodiscard]] virtual Cycles next_arrival() const = 0;
+  /// The inbox that is told of every arrival.
+  virtual void set_consumer(Inbox& consumer) = 0;
+};
+
+/// Bounded, ordered link between units: a value written at cycle t arrives at t + latency, or
+/// `interval` cycles after the one before it, whichever is later. Its slot is occupied from the
+/// write until the cycle after the read, so `capacity` counts what is on the way and what waits;
+/// a full channel holds its producers up. Several producers may write; those of the same cycle
+/// come in order of their agents' rank.
+template <typename T>
+class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public TimedIn<T> {
+ public:
+  struct Spec {
+    std::size_t capacity = 1;  ///< values, >= 1
+    Cycles latency = 1;        ///< cycles, >= 1
+    Cycles interval = 1;       ///< cycles between two arrivals; 0 = any number a cycle
+  };
+
+  TimedChannel(const char* name, const Spec& spec) : sc_object(name), spec_(spec) {
+    std::size_t slots = 1;
+    while (slots < (spec.capacity < kFirstSlots ? spec.capacity : kFirstSlots)) slots *= 2;
+    ring_.resize(slots);
+  }
+
+  [[nodiscard]] std::size_t num_free(Cycles now) const override {
+    const std::size_t held = size_ + (last_read_ == now ? read_in_cycle_ : 0);
+    return held < spec_.capacity ? spec_.capacity - held : 0;
+  }
+
+  bool nb_write(const T& value, Cycles now) override {
+    if (num_free(now) == 0) return false;
+    Cycles arrival = now + spec_.latency;
+    if (arrival < next_arrival_slot_) arrival = next_arrival_slot_;
+    next_arrival_slot_ = arrival + spec_.interval;
+    if (size_ == ring_.size()) grow();
+    ring_[(head_ + size_) & (ring_.size() - 1)] = {arrival, value};
+    ++size_;
+    ++num_written_;
+    if (size_ > max_size_) max_size_ = size_;
+    if (size_ == 1) consumer_->expect(arrival);
+    return true;
+  }
+
+  void notify_when_free(Inbox& producer) override {
+    for (const Inbox* waiting : waiting_) {
+      if (waiting == &producer) return;
+    }
+    waiting_.push_back(&producer);
+  }
+
+  [[nodiscard]] bool has_arrived(Cycles now) const override {
+    return size_ != 0 && ring_[head_].arrival <= now;
+  }
+  [[nodiscard]] Cycles next_arrival() const override {
+    return size_ == 0 ? kNever : ring_[head_].arrival;
+  }
+
+  T read(Cycles now) override {
+    const T value = ring_[head_].value;
+    head_ = (head_ + 1) & (ring_.size() - 1);
+    --size_;
+    read_in_cycle_ = last_read_ == now ? read_in_cycle_ + 1 : 1;
+    last_read_ = now;
+    for (Inbox* producer : waiting_) producer->nudge(now + 1);
+    waiting_.clear();
+    return value;
+  }
+
+  void set_consumer(Inbox& consumer) override { consumer_ = &consumer; }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t max_size() const { return max_size_; }
+  [[nodiscard]] std::uint64_t num_written() const { return num_written_; }
+  [[nodiscard]] const Spec& spec() const { return spec_; }
+
+ private:
+  struct Entry {
+    Cycles arrival = 0;
+    T value{};
+  };
+  static constexpr std::size_t kFirstSlots = 16;
+
+  void grow() {
+    std::vector<Entry> larger(ring_.size() * 2);
+    for (std::size_t i = 0; i < size_; ++i) larger[i] = ring_[(head_ + i) & (ring_.size() - 1)];
+    ring_.swap(larger);
+    head_ = 0;
+  }
+
+  const Spec spec_;
+  Inbox* consumer_ = nullptr;
+  std::vector<Inbox*> waiting_;
+  std::vector<Entry> ring_;  ///< size is a power of two
+  std::size_t head_ = 0;
+  std::size_t size_ = 0;
+  std::size_t max_size_ = 0;
+  std::size_t read_in_cycle_ = 0;
+  Cycles last_read_ = kNever;
+  Cycles next_arrival_slot_ = 0;
+  std::uint64_t num_written_ = 0;
+};
+
+}  // namespace sheaf

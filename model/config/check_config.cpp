@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "config/check_config.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string_view>
+
+#include "base/errors.h"
+#include "config/config_text.h"
+#include "config/quantities.h"
+
+namespace sheaf {
+namespace {
+
+constexpr std::array<std::string_view, 3> kHeatMaps{"rays", "node_visits", "triangle_tests"};
+
+[[noreturn]] void refuse(const std::string& rule) {
+  throw Error(ExitCode::kUsage, rule);
+}
+
+void check_power_of_two(const std::string& key, std::uint64_t value, const std::string& shown) {
+  if (!std::has_single_bit(value)) {
+    refuse(fmt::format("{} = {} must be a power of two", key, shown));
+  }
+}
+
+/// Set-associative geometry: whole sets, and a power of two of them, so that the set is a field of
+/// the address.
+void check_sets(const std::string& name, Bytes capacity, Bytes line, std::uint64_t ways,
+                std::uint64_t banks) {
+  const Bytes row = line * ways * banks;
+  const std::string terms = banks > 1 ? "line x ways x banks" : "line x ways";
+  if (capacity % row != 0) {
+    refuse(fmt::format("{}.capacity = {} must be a multiple of {} = {}", name,
+                       format_bytes(capacity), terms, format_bytes(row)));
+  }
+  if (!std::has_single_bit(capacity / row)) {
+    refuse(fmt::format("{}.capacity = {} over {} = {} makes {} sets, which must be a power of two",
+                       name, format_bytes(capacity), terms, format_bytes(row), capacity / row));
+  }
+}
+
+void check_private_cache(const std::string& name, const CacheSpec& spec, const L2Spec& l2) {
+  if (spec.mode == CacheMode::kPerfect) return;
+  check_power_of_two(name + ".line", spec.line, format_bytes(spec.line));
+  if (l2.mode == CacheMode::kNormal && spec.line > l2.line) {
+    refuse(fmt::format("{}.line = {} must not be larger than l2.line = {}", name,
+                       format_bytes(spec.line), format_bytes(l2.line)));
+  }
+  if (spec.mode == CacheMode::kNormal) check_sets(name, spec.capacity, spec.line, spec.ways, 1);
+}
+
+void check_memory(const Config& c) {
+  if (c.l2.mode == CacheMode::kNormal) {
+    check_power_of_two("l2.line", c.l2.line, format_bytes(c.l2.line));
+    check_power_of_two("l2.banks", c.l2.banks, fmt::format("{}", c.l2.banks));
+    check_sets("l2", c.l2.capacity, c.l2.line, c.l2.ways, c.l2.banks);
+  }
+  check_private_cache("node_cache", c.node_cache, c.l2);
+  check_private_cache("triangle_cache", c.triangle_cache, c.l2);
+  check_private_cache("attribute_cache", c.attribute_cache, c.l2);
+  check_private_cache("texture_cache", c.texture_cache, c.l2);
+  check_private_cache("film_cache", c.film_cache, c.l2);
+}
+
+void check_flow(const Config& c) {
+  const std::uint64_t tile = std::uint64_t{c.flow.tile_size} * c.flow.tile_size;
+  if (tile < c.packet.size) {
+    refuse(fmt::format("flow.tile_size = {} makes tiles of {} pixels, fewer than packet.size = {}",
+                       c.flow.tile_size, tile, c.packet.size));
+  }
+  if (c.flow.control == FlowPolicy::kCredits && c.flow.credits != 0 &&
+      c.flow.credits < c.packet.size) {
+    refuse(fmt::format("flow.credits = {} admits no packet of packet.size = {} rays",
+                       c.flow.credits, c.packet.size));
+  }
+}
+
+void check_view(const Config& c) {
+  if (c.camera.position && c.camera.position == c.camera.look_at) {
+    refuse("camera.position and camera.look_at are the same point; the camera needs a direction");
+  }
+  if (c.light.intensity && !c.light.position) {
+    refuse("light.intensity belongs to the light of light.position, which is off; set both");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> heat_map_names(const ImageSpec& image) {
+  std::vector<std::string> names;
+  std::string_view rest = image.heat_maps;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    std::string name(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    std::erase(name, ' ');
+    if (name.empty()) continue;
+    if (std::ranges::find(kHeatMaps, name) == kHeatMaps.end()) {
+      refuse(fmt::format("image.heat_maps: unknown counter '{}'; known: {}", printable(name),
+                         fmt::join(kHeatMaps, ", ")));
+    }
+    if (std::ranges::find(names, name) != names.end()) {
+      refuse(fmt::format("image.heat_maps: '{}' stands there twice", name));
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void check_config(const Config& config) {
+  check_memory(config);
+  check_flow(config);
+  check_view(config);
+  static_cast<void>(heat_map_names(config.image));
+}
+
+}  // namespace sheaf

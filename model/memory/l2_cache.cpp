@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "memory/l2_cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace sheaf {
+namespace {
+
+std::uint32_t sets_per_bank(const L2Spec& spec) {
+  if (spec.mode != CacheMode::kNormal) return 0;
+  return static_cast<std::uint32_t>(spec.capacity / (spec.line * spec.ways * spec.banks));
+}
+
+// A write-back carries at most one line of a private cache, which is no longer than the L2's.
+constexpr std::size_t kMaxLine = 4096;
+
+}  // namespace
+
+L2Cache::L2Cache(const sc_core::sc_module_name& name, const L2Spec& spec, ClockDomain& domain)
+    : sc_module(name),
+      in_requests("in_requests"),
+      out_responses("out_responses"),
+      to_dram("to_dram"),
+      spec_(spec),
+      domain_(domain),
+      agent_(domain.add(*this)),
+      line_shift_(static_cast<unsigned>(std::countr_zero(spec.line))),
+      bank_shift_(static_cast<unsigned>(std::countr_zero(spec.banks))),
+      payloads_(kMaxLine) {
+  inbox_.bind(domain, agent_);
+  for (std::uint32_t bank = 0; bank < spec.banks; ++bank) {
+    banks_.push_back({CacheArray(sets_per_bank(spec), spec.ways), {}, {}, 0, false});
+  }
+  to_dram.register_nb_transport_bw(this, &L2Cache::nb_transport_bw);
+}
+
+void L2Cache::end_of_elaboration() {
+  in_requests->set_consumer(inbox_);
+  for (int i = 0; i < out_responses.size(); ++i) responses_.push_back(out_responses[i]);
+}
+
+Cycles L2Cache::wake(Cycles now) {
+  for (;;) {
+    act(now);
+    const Cycles next = next_event();
+    if (next >= domain_.horizon()) return next;
+    now = next;
+  }
+}
+
+void L2Cache::act(Cycles now) {
+  while (!fills_.empty() && fills_.top().at <= now) {
+    const Address address = fills_.top().address;
+    fills_.pop();
+    fill(address, now);
+  }
+  while (in_requests->has_arrived(now)) accept(in_requests->read(now), now);
+  for (Bank& bank : banks_) {
+    if (!bank.queue.empty() && !bank.blocked && bank.free_at <= now) serve(bank, now);
+  }
+  while (!checked_.empty() && checked_.front().at <= now) {
+    finish_check(checked_.front());
+    checked_.pop_front();
+  }
+}
+
+Cycles L2Cache::next_event() const {
+  Cycles next = in_requests->next_arrival();
+  if (!fills_.empty()) next = std::min(next, fills_.top().at);
+  if (!checked_.empty()) next = std::min(next, checked_.front().at);
+  for (const Bank& bank : banks_) {
+    if (!bank.queue.empty() && !bank.blocked) next = std::min(next, bank.free_at);
+  }
+  return next;
+}
+
+void L2Cache::accept(const LineRequest& request, Cycles now) {
+  if (request.write) {
+    stats_.bytes_received += request.bytes;
+  } else {
+    stats_.bytes_requested += request.bytes;
+  }
+  bank_of(line_of(request.address)).queue.push_back({request, now});
+}
+
+void L2Cache::serve(Bank& bank, Cycles now) {
+  const Request request = bank.queue.front();
+  if (request.what.write) {
+    serve_write(bank, request.what, now);
+  } else if (!serve_read(bank, request.what, now)) {
+    ++stats_.num_mshr_stalls;
+    bank.blocked = true;
+    return;
+  }
+  ++stats_.num_accesses;
+  ++kind_stats_[static_cast<std::size_t>(request.what.kind)].num_accesses;
+  stats_.bank_wait_cycles += now - request.arrival;
+  bank.queue.pop_front();
+  bank.free_at = now + 1;
+}
+
+bool L2Cache::serve_read(Bank& bank, const LineRequest& request, Cycles now) {
+  const std::uint64_t line = line_of(request.address);
+  if (spec_.mode == CacheMode::kPerfect || bank.array.touch(index_in_bank(line))) {
+    ++stats_.num_hits;
+    ++kind_stats_[static_cast<std::size_t>(request.kind)].num_hits;
+    checked_.push_back({now + spec_.hit_latency, request, true});
+    return true;
+  }
+  for (Mshr& mshr : bank.mshrs) {
+    if (mshr.line != line) continue;
+    ++stats_.num_merges;
+    mshr.waiters.push_back(request);
+    return true;
+  }
+  if (bank.mshrs.size() == spec_.mshrs) return false;
+  ++stats_.num_misses;
+  bank.mshrs.push_back({line, {request}});
+  checked_.push_back({now + spec_.hit_latency, request, false});
+  return true;
+}
+
+void L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
+  const std::uint64_t index = index_in_bank(line_of(request.address));
+  if (spec_.mode == CacheMode::kPerfect || bank.array.touch(index)) {
+    ++stats_.num_hits;
+    ++kind_stats_[static_cast<std::size_t>(request.kind)].num_hits;
+    if (spec_.mode == CacheMode::kNormal) bank.array.mark_dirty(index);
+    return;
+  }
+  ++stats_.num_misses;
+  checked_.push_back({now + spec_.hit_latency, request, false});
+}
+
+void L2Cache::finish_check(const Checked& checked) {
+  L2KindStats& kind = kind_stats_[static_cast<std::size_t>(checked.what.kind)];
+  if (checked.hit) {
+    responses_[checked.what.requester]->nb_write({checked.what.address}, checked.at);
+  } else if (checked.what.write) {
+    kind.bytes_written += checked.what.bytes;
+    send_to_dram(checked.what.address, checked.what.bytes, true, checked.at);
+  } else {
+    kind.bytes_read += spec_.line;
+    send_to_dram(line_of(checked.what.address) << line_shift_, spec_.line, false, checked.at);
+  }
+}
+
+void L2Cache::fill(Address address, Cycles now) {
+  const std::uint64_t line = line_of(address);
+  Bank& bank = bank_of(line);
+  const auto mshr = std::find_if(bank.mshrs.begin(), bank.mshrs.end(),
+                                 [&](const Mshr& entry) { return entry.line == line; });
+  for (const LineRequest& waiter : mshr->waiters) {
+    responses_[waiter.requester]->nb_write({waiter.address}, now);
+  }
+  std::swap(*mshr, bank.mshrs.back());
+  bank.mshrs.pop_back();
+  if (bank.blocked) {
+    bank.blocked = false;
+    bank.free_at = std::max(bank.free_at, now);
+  }
+  const CacheArray::Victim victim = bank.array.fill(index_in_bank(line), false);
+  if (!victim.valid || !victim.dirty) return;
+  ++stats_.num_writebacks;
+  const std::uint64_t bank_number = line & (banks_.size() - 1);
+  send_to_dram(((victim.line << bank_shift_) | bank_number) << line_shift_, spec_.line, true, now);
+}
+
+void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles now) {
+  (write ? stats_.bytes_written : stats_.bytes_read) += bytes;
+  tlm::tlm_generic_payload* payload =
+      payloads_.acquire(address, static_cast<std::uint32_t>(bytes), write);
+  tlm::tlm_phase phase = tlm::BEGIN_REQ;
+  sc_core::sc_time delay = domain_.offset(now);
+  const tlm::tlm_sync_enum status = to_dram->nb_transport_fw(*payload, phase, delay);
+  if (status == tlm::TLM_COMPLETED) {
+    dram_done(*payload, domain_.cycle_at(delay));
+    payload->release();
+  } else {
+    domain_.kernel_touched();
+  }
+}
+
+void L2Cache::dram_done(const tlm::tlm_generic_payload& payload, Cycles at) {
+  if (payload.is_write()) return;
+  fills_.push({at, num_fills_++, payload.get_address()});
+  inbox_.nudge(at);
+}
+
+tlm::tlm_sync_enum L2Cache::nb_transport_bw(tlm::tlm_generic_payload& payload,
+                                            tlm::tlm_phase& phase, sc_core::sc_time& delay) {
+  if (phase != tlm::BEGIN_RESP) return tlm::TLM_ACCEPTED;
+  // Called by a DRAM model that answers in its own time, from a process of its own.
+  dram_done(payload, domain_.cycle_at_kernel_offset(delay));
+  payload.release();
+  return tlm::TLM_COMPLETED;
+}
+
+bool L2Cache::is_idle() const {
+  const bool banks_idle = std::all_of(banks_.begin(), banks_.end(), [](const Bank& bank) {
+    return bank.queue.empty() && bank.mshrs.empty();
+  });
+  return banks_idle && checked_.empty() && fills_.empty() &&
+         in_requests->next_arrival() == kNever;
+}
+
+std::string L2Cache::stuck_reason() const {
+  std::size_t queued = 0;
+  std::size_t outstanding = 0;
+  for (const Bank& bank : banks_) {
+    queued += bank.queue.size();
+    outstanding += bank.mshrs.size();
+  }
+  if (queued + outstanding == 0) return {};
+  return fmt::format("{}: {} requests queued, {} lines awaited from DRAM", name(), queued,
+                     outstanding);
+}
+
+}  // namespace sheaf

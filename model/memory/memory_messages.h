@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/data_kind.h"
+#include "base/units.h"
+
+namespace sheaf {
+
+/// From a private cache to the L2: fetch a line, or write one back.
+struct LineRequest {
+  Address address = 0;  ///< of the line's first byte
+  std::uint32_t bytes = 0;
+  std::uint16_t requester = 0;
+  DataKind kind{};
+  bool write = false;
+};
+
+/// From the L2 to a private cache: the line that was asked for.
+struct LineResponse {
+  Address address = 0;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_texture.h"
+
+#include <fmt/format.h>
+#include <stb_image.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "scene/gltf_limits.h"
+
+namespace sheaf::gltf {
+namespace {
+
+Texture::Wrap to_wrap(int mode, const std::string& place) {
+  switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+      return Texture::Wrap::kRepeat;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return Texture::Wrap::kMirroredRepeat;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return Texture::Wrap::kClampToEdge;
+    default:
+      refuse(place, fmt::format("{} is not a wrapping mode", mode));
+  }
+}
+
+/// stb decodes more formats than glTF allows; only these two reach it.
+bool is_png_or_jpeg(ByteView bytes) {
+  constexpr std::array<std::uint8_t, 4> kPng{0x89, 'P', 'N', 'G'};
+  constexpr std::array<std::uint8_t, 3> kJpeg{0xFF, 0xD8, 0xFF};
+  const auto begins_with = [&](const auto& magic) {
+    return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+  };
+  return begins_with(kPng) || begins_with(kJpeg);
+}
+
+void decode(ByteView bytes, const std::string& place, std::uint64_t& num_texels, Texture& texture) {
+  if (!is_png_or_jpeg(bytes) || bytes.size() > std::numeric_limits<int>::max()) {
+    refuse(place, "is neither PNG nor JPEG; convert it");
+  }
+  const auto length = static_cast<int>(bytes.size());
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channels) || width < 1 ||
+      height < 1) {
+    refuse(place, fmt::format("broken image, or larger than {0} x {0} ({1})", kMaxImageSide,
+                              stbi_failure_reason()));
+  }
+  texture.width = static_cast<std::uint32_t>(width);
+  texture.height = static_cast<std::uint32_t>(height);
+  num_texels += std::uint64_t{texture.width} * texture.height;
+  if (std::max(texture.width, texture.height) > kMaxImageSide || num_texels > kMaxTexels) {
+    refuse(place, fmt::format("{} x {} pixels exceed the limits of {} a side and {} in all; scale "
+                              "it down",
+                              width, height, kMaxImageSide, kMaxTexels));
+  }
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4), &stbi_image_free);
+  if (!pixels) refuse(place, fmt::format("broken image: {}", stbi_failure_reason()));
+  texture.rgba.assign(pixels.get(), pixels.get() + std::size_t{texture.width} * texture.height * 4);
+}
+
+}  // namespace
+
+std::int32_t TextureReader::use(const std::string& place, int index) {
+  const auto& list = document_.model.textures;
+  if (static_cast<std::size_t>(index) >= list.size()) {
+    refuse(place, fmt::format("there is no texture {}", index));
+  }
+  const tinygltf::Texture& source = list[static_cast<std::size_t>(index)];
+  if (source.source < 0) {
+    document_.warnings.add("textures without a PNG or JPEG image are left out");
+    return kNoTexture;
+  }
+  const std::string own = fmt::format("/textures/{}", index);
+  if (static_cast<std::size_t>(source.source) >= document_.images.size()) {
+    refuse(own, fmt::format("there is no image {}", source.source));
+  }
+  Texture texture = read_sampler(own, source.sampler);
+  const Key key{source.source, texture.wrap_u, texture.wrap_v, texture.nearest};
+  const auto [entry, is_new] = known_.try_emplace(key, static_cast<std::int32_t>(textures_.size()));
+  if (is_new) {
+    read_image(source.source, texture);
+    textures_.push_back(std::move(texture));
+  }
+  return entry->second;
+}
+
+Texture TextureReader::read_sampler(const std::string& place, int sampler) const {
+  Texture texture;
+  if (sampler < 0) return texture;
+  const auto& list = document_.model.samplers;
+  if (static_cast<std::size_t>(sampler) >= list.size()) {
+    refuse(place, fmt::format("there is no sampler {}", sampler));
+  }
+  const tinygltf::Sampler& source = list[static_cast<std::size_t>(sampler)];
+  const std::string own = fmt::format("/samplers/{}", sampler);
+  texture.wrap_u = to_wrap(source.wrapS, own + "/wrapS");
+  texture.wrap_v = to_wrap(source.wrapT, own + "/wrapT");
+  texture.nearest = source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+  return texture;
+}
+
+void TextureReader::read_image(int source, Texture& texture) {
+  const ImageSource& image = document_.images[static_cast<std::size_t>(source)];
+  const std::string place = fmt::format("/images/{}", source);
+  if (image.uri.empty()) {
+    decode(buffer_view_bytes(document_, place, image.buffer_view), place, num_texels_, texture);
+  } else {
+    const Bytes8 bytes = document_.uris.read(place + "/uri", image.uri);
+    decode(bytes, place, num_texels_, texture);
+  }
+}
+
+}  // namespace sheaf::gltf

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "scene/gltf_document.h"
+#include "scene/scene.h"
+
+namespace sheaf::gltf {
+
+/// Decodes the images of the textures that materials ask for, once for each image and sampler.
+class TextureReader {
+ public:
+  TextureReader(Document& document, std::vector<Texture>& textures)
+      : document_(document), textures_(textures) {}
+
+  /// Index into the scene's textures of glTF texture `index`, or kNoTexture, with a warning, for a
+  /// texture that has no image of the core format.
+  [[nodiscard]] std::int32_t use(const std::string& place, int index);
+
+ private:
+  using Key = std::tuple<int, Texture::Wrap, Texture::Wrap, bool>;
+
+  [[nodiscard]] Texture read_sampler(const std::string& place, int sampler) const;
+  void read_image(int source, Texture& texture);
+
+  Document& document_;
+  std::vector<Texture>& textures_;
+  std::map<Key, std::int32_t> known_;
+  std::uint64_t num_texels_ = 0;
+};
+
+}  // namespace sheaf::gltf

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "shading/shader.h"
+#include "sorting/spawn_bundle.h"
+#include "traversal/ray_packet.h"
+
+namespace sheaf {
+
+/// Something to be added to a pixel.
+struct PixelContribution {
+  std::uint32_t pixel = 0;
+  Vec3 radiance{0.0F};
+};
+
+/// Everything that shading one traced packet gives and reads. Reused between packets.
+struct PacketShading {
+  std::vector<PixelContribution> contributions;  ///< in lane order; nothing that is zero
+  std::vector<std::uint32_t> triangles;          ///< triangles whose attributes were read
+  std::vector<TexelAccess> texels;
+  SpawnBundle spawned;
+  int num_post_shaded = 0;  ///< shadow rays, whatever they met
+
+  void clear();
+};
+
+/// What primary hits leave for the picture's auxiliary layers; all are indexed by pixel.
+struct AuxiliaryLayers {
+  std::vector<Vec3> albedo;
+  std::vector<Vec3> normal;
+  std::vector<float> depth;  ///< distance along the ray; 0 where nothing was hit
+  explicit AuxiliaryLayers(std::size_t num_pixels)
+      : albedo(num_pixels, Vec3(0.0F)), normal(num_pixels, Vec3(0.0F)), depth(num_pixels, 0.0F) {}
+};
+
+/// Shades traced packets ray by ray: pre-shading where a ray hit something, background where it
+/// left the scene, post-shading where a shadow ray met no occluder.
+class PacketShader {
+ public:
+  /// `layers` may be null.
+  PacketShader(const Scene& scene, const Shader::Options& options, AuxiliaryLayers* layers)
+      : scene_(scene), shader_(scene, options), layers_(layers) {}
+
+  void shade(const RayPacket& packet, PacketShading& out) const;
+
+ private:
+  struct Lane;
+  void add(std::uint32_t pixel, const Vec3& radiance, PacketShading& out) const;
+  void pre_shade(const Lane* lanes, std::size_t num_lanes, PacketShading& out) const;
+  void keep_layers(const Lane& lane) const;
+
+  const Scene& scene_;
+  Shader shader_;
+  AuxiliaryLayers* layers_;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sorting/ray_sorter.h"
+
+namespace sheaf {
+
+/// opos: the paper's upper bound. Rays wait, unbounded, one list per direction-sign configuration,
+/// until nothing else is left to trace; then packets are formed from the first ray and those with
+/// the nearest origins, until all have left. Rays that come later join the next round.
+class OposSorter final : public RaySorter {
+ public:
+  explicit OposSorter(PacketPool& pool) : RaySorter(pool) {}
+
+  void insert(const Ray& ray, Cycles now, std::vector<RayPacket*>& departures) override;
+  void sweep(Departure why, Cycles now, std::vector<RayPacket*>& departures) override;
+  void time_out(Cycles /*opened_by*/, Cycles /*now*/,
+                std::vector<RayPacket*>& /*departures*/) override {}
+  [[nodiscard]] Cycles oldest_opening() const override { return kNever; }
+
+ private:
+  struct Waiting {
+    Ray ray;
+    Cycles arrival;
+  };
+  void form_packets(std::vector<Waiting>& list, Departure why, Cycles now,
+                    std::vector<RayPacket*>& departures);
+
+  std::array<std::vector<Waiting>, 8> lists_;
+};
+
+}  // namespace sheaf

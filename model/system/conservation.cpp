@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "system/machine.h"
+#include "system/machine_links.h"
+
+namespace sheaf {
+namespace {
+
+void require(bool holds, const std::string& law) {
+  if (holds) return;
+  throw Error(ExitCode::kBug,
+              "bug of the simulator, please report it: conservation violated: " + law);
+}
+
+void require_equal(std::uint64_t a, std::uint64_t b, const std::string& law) {
+  require(a == b, fmt::format("{}: {} != {}", law, a, b));
+}
+
+void check_cache(const std::string& name, const CacheStats& stats) {
+  require_equal(stats.num_accesses, stats.num_hits + stats.num_misses + stats.num_merges,
+                name + ": accesses = hits + misses + merges");
+}
+
+void check_sorter(const RayCacheStats& stats) {
+  require_equal(stats.num_insertions, stats.num_hits + stats.num_misses,
+                "ray cache: insertions = hits + misses");
+  require_equal(stats.num_insertions, stats.num_rays(), "ray cache: rays in = rays out");
+  require_equal(stats.num_evictions, stats.num_packets_evicted,
+                "ray cache: evictions = packets evicted");
+}
+
+template <typename Unit>
+void check_stalls(const std::string& name, const Unit& unit, Cycles end) {
+  require_equal(unit.stalls().total(), end, name + ": stall account sums to all cycles");
+}
+
+}  // namespace
+
+void Machine::check_conservation() const {
+  const RayCounts::Entry rays = frame_.rays.total();
+  require_equal(rays.spawned, rays.retired, "rays spawned = rays retired");
+  require_equal(packets_.num_out(), 0, "no packet in flight at the end");
+  require_equal(bundles_.num_out(), 0, "no spawned bundle in flight at the end");
+  require_equal(batches_.num_out(), 0, "no film batch in flight at the end");
+  require(l2_->is_idle(), "no memory request in flight at the end");
+  if (ray_cache_) check_sorter(ray_cache_->sorter().stats());
+
+  std::uint64_t fetched = 0;
+  std::uint64_t written = 0;
+  const auto cache = [&](const std::string& name, const CacheStats& stats) {
+    check_cache(name, stats);
+    fetched += stats.bytes_read;
+    written += stats.bytes_written;
+  };
+  for (const auto& unit : traversal_units_) {
+    cache(unit->name(), unit->cache_stats());
+    check_stalls(unit->name(), *unit, end_);
+  }
+  for (const auto& unit : intersection_units_) {
+    cache(unit->name(), unit->cache_stats());
+    check_stalls(unit->name(), *unit, end_);
+  }
+  for (const auto& unit : shader_units_) {
+    cache(unit->name(), unit->attribute_cache_stats());
+    if (unit->texture_cache_stats() != nullptr) cache(unit->name(), *unit->texture_cache_stats());
+    check_stalls(unit->name(), *unit, end_);
+  }
+  cache("film", film_->cache_stats());
+  check_stalls("film", *film_, end_);
+  check_stalls("primary_source", *primary_source_, end_);
+  check_stalls("packet_arbiter", *packet_arbiter_, end_);
+  if (ray_cache_) check_stalls("ray_cache", *ray_cache_, end_);
+  if (spawn_router_) check_stalls("spawn_router", *spawn_router_, end_);
+
+  const L2Stats& l2 = l2_->stats();
+  const DramStats& dram = dram_->stats();
+  require_equal(l2.num_accesses, l2.num_hits + l2.num_misses + l2.num_merges,
+                "l2: accesses = hits + misses + merges");
+  require_equal(fetched, l2.bytes_requested, "bytes into the private caches = bytes out of the l2");
+  require_equal(written, l2.bytes_received, "bytes out of the private caches = bytes into the l2");
+  require_equal(l2.bytes_read, dram.bytes_read, "bytes into the l2 = bytes out of dram");
+  require_equal(l2.bytes_written, dram.bytes_written, "bytes out of the l2 = bytes into dram");
+}
+
+}  // namespace sheaf

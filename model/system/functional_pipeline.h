@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "scene/tile_order.h"
+#include "system/build_plan.h"
+#include "system/frame.h"
+#include "system/prepared_scene.h"
+#include "units/shader_unit.h"
+
+namespace sheaf {
+
+/// The same pipeline without time: packets are traced and shaded one after the other, in the order
+/// that the arbiter's policy gives, with the same flow control and the same ray cache. Private to
+/// it is only that nothing waits.
+class FunctionalPipeline {
+ public:
+  FunctionalPipeline(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
+                     Frame& frame);
+
+  /// Called once a tile with the share of the tiles that have been begun; returns true to stop.
+  using Monitor = std::function<bool(double progress)>;
+  /// Returns true if the frame is complete.
+  bool run(const Monitor& monitor);
+
+  void report(StatsTree& stats) const;
+  [[nodiscard]] const TraceCounts& primary_counts() const { return primary_counts_; }
+  [[nodiscard]] const TraceCounts& secondary_counts() const { return secondary_counts_; }
+  [[nodiscard]] std::size_t packets_made() const { return packets_.num_made(); }
+
+ private:
+  bool next_primary(RayPacket*& packet);
+  void process(RayPacket* packet, TraceCounts& counts);
+  void retire(const RayPacket& packet);
+  void spawn();
+  bool sweep();
+
+  const Config config_;
+  const BuildPlan plan_;
+  const PreparedScene& scene_;
+  Frame& frame_;
+  PacketPool packets_;
+  PacketShader shader_;
+  FlowControl flow_;
+  TileOrder order_;
+  std::unique_ptr<RaySorter> sorter_;
+  std::deque<RayPacket*> fifo_;
+  std::vector<RayPacket*> departures_;
+  RayPacket* held_primary_ = nullptr;  ///< made, but not admitted yet
+  PacketShading shading_;
+  LaneCounts lanes_;
+  TraceCounts primary_counts_;
+  TraceCounts secondary_counts_;
+  bool last_was_secondary_ = true;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "system/machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.h"
+#include "system/machine_links.h"
+#include "system/pipeline_parts.h"
+
+namespace sheaf {
+namespace {
+
+// Links that another rule keeps from filling up: credits for contexts and MSHRs, flow control for
+// spawned rays.
+constexpr std::size_t kNeverFull = std::size_t{1} << 40;
+
+sc_core::sc_time period_of(double frequency) { return {1.0 / frequency, sc_core::SC_SEC}; }
+
+}  // namespace
+
+Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
+                 Frame& frame)
+    : config_(config),
+      plan_(plan),
+      scene_(scene),
+      frame_(frame),
+      packets_(static_cast<int>(config.packet.size)),
+      shader_(scene.scene,
+              {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
+              &frame.layers),
+      flow_(make_flow_control(config, plan, scene.scene)),
+      domain_("clock_domain", period_of(config.clock.frequency)),
+      links_(std::make_unique<Links>()) {
+  build_memory();
+  build_units();
+  if (plan_.secondary_rays) build_regrouper();
+  connect();
+}
+
+Machine::~Machine() = default;
+
+void Machine::build_memory() {
+  links_->caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
+      "caches_to_l2", TimedChannel<LineRequest>::Spec{.capacity = kNeverFull,
+                                                      .latency = config_.link.memory_latency,
+                                                      .interval = 0});
+  l2_ = std::make_unique<L2Cache>("l2", config_.l2, domain_);
+  dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
+  l2_->in_requests(*links_->caches_to_l2);
+  l2_->to_dram.bind(dram_->from_cache);
+}
+
+// A private cache's number at the L2, with the link that brings its lines.
+std::uint16_t Machine::add_requester(const CacheSpec& cache) {
+  auto& links = links_->l2_to_caches;
+  const auto number = static_cast<std::uint16_t>(links.size());
+  const Cycles transfer = (cache.line + config_.link.memory_width - 1) / config_.link.memory_width;
+  links.push_back(std::make_unique<TimedChannel<LineResponse>>(
+      fmt::format("l2_to_cache_{}", number).c_str(),
+      TimedChannel<LineResponse>::Spec{.capacity = cache.mshrs,
+                                       .latency = config_.link.memory_latency,
+                                       .interval = transfer}));
+  l2_->out_responses(*links.back());
+  return number;
+}
+
+void Machine::build_units() {
+  const int packet_size = static_cast<int>(config_.packet.size);
+  const TracedScene traced{scene_.tree, scene_.triangles, scene_.memory,
+                           scheme_of(config_.traversal_scheme)};
+  const ShadedScene shaded{scene_.scene, shader_, scene_.memory, packets_,
+                           bundles_,     batches_, frame_.rays,  flow_};
+  const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
+                        packet_size);
+  TimedOut<LineRequest>& memory = *links_->caches_to_l2;
+
+  primary_source_ = std::make_unique<PrimarySource>("primary_source", config_.primary_source,
+                                                    config_.image, order, scene_.scene.camera,
+                                                    packets_, frame_.rays, flow_, domain_);
+  packet_arbiter_ = std::make_unique<PacketArbiter>("packet_arbiter", config_.packet_arbiter,
+                                                    config_.traversal_unit.count,
+                                                    config_.traversal_unit.contexts, domain_);
+  for (std::uint32_t i = 0; i < config_.traversal_unit.count; ++i) {
+    const std::uint16_t requester = add_requester(config_.node_cache);
+    traversal_units_.push_back(std::make_unique<TraversalUnit>(
+        fmt::format("traversal_unit{}", i).c_str(), config_.traversal_unit, packet_size,
+        config_.node_cache, traced, &frame_.heat, domain_, static_cast<std::uint16_t>(i), memory,
+        requester));
+    traversal_units_.back()->in_lines(*links_->l2_to_caches.back());
+  }
+  for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
+    const std::uint16_t requester = add_requester(config_.triangle_cache);
+    intersection_units_.push_back(std::make_unique<IntersectionUnit>(
+        fmt::format("intersection_unit{}", i).c_str(), config_.intersection_unit, packet_size,
+        config_.triangle_cache, traced, domain_, memory, requester));
+    intersection_units_.back()->in_lines(*links_->l2_to_caches.back());
+  }
+  for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
+    const std::uint16_t attributes = add_requester(config_.attribute_cache);
+    auto& attribute_lines = *links_->l2_to_caches.back();
+    const std::uint16_t textures =
+        plan_.texture_cache ? add_requester(config_.texture_cache) : attributes;
+    shader_units_.push_back(std::make_unique<ShaderUnit>(
+        fmt::format("shader_unit{}", i).c_str(), config_.shader_unit, packet_size,
+        config_.attribute_cache, plan_.texture_cache ? &config_.texture_cache : nullptr, shaded,
+        domain_, memory, attributes, textures));
+    shader_units_.back()->in_attribute_lines(attribute_lines);
+    if (plan_.texture_cache) {
+      shader_units_.back()->in_texture_lines(*links_->l2_to_caches.back());
+    }
+  }
+  film_ = std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory,
+                                     batches_, flow_, domain_, memory,
+                                     add_requester(config_.film_cache));
+  film_->in_lines(*links_->l2_to_caches.back());
+}
+
+void Machine::build_regrouper() {
+  links_->packet_fifo = std::make_unique<PacketChannel>(
+      "packet_fifo",
+      PacketChannel::Spec{.capacity = config_.packet_fifo.depth,
+                          .latency = config_.packet_fifo.latency +
+                                     (plan_.ray_cache ? config_.ray_cache.latency : 0)});
+  links_->spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
+      "spawned_rays",
+      TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
+  if (plan_.ray_cache) {
+    const SorterOptions options = sorter_options(config_, plan_, scene_.scene.bounds);
+    ray_cache_ = std::make_unique<RayCacheUnit>(
+        "ray_cache", config_.ray_cache, make_sorter(options, scene_.scene.bounds, packets_),
+        bundles_, flow_, domain_);
+    ray_cache_->in_bundles(*links_->spawned_rays);
+    ray_cache_->out_packets(*links_->packet_fifo);
+  } else {
+    spawn_router_ = std::make_unique<SpawnRouter>("spawn_router", packets_, bundles_, domain_);
+    spawn_router_->in_bundles(*links_->spawned_rays);
+    spawn_router_->out_packets(*links_->packet_fifo);
+  }
+}
+
+void Machine::connect() {
+  const Cycles latency = config_.link.latency;
+  const std::size_t depth = config_.link.depth;
+  Links& links = *links_;
+  const auto number = [](const char* name, std::size_t i) { return fmt::format("{}{}", name, i); };
+
+  links.source_to_arbiter = std::make_unique<PacketChannel>(
+      "source_to_arbiter", PacketChannel::Spec{.capacity = depth, .latency = latency});
+  primary_source_->out_packets(*links.source_to_arbiter);
+  packet_arbiter_->in_primary(*links.source_to_arbiter);
+  if (plan_.secondary_rays) packet_arbiter_->in_secondary(*links.packet_fifo);
+
+  links.traversal_to_arbiter = std::make_unique<TimedChannel<ContextFree>>(
+      "traversal_to_arbiter",
+      TimedChannel<ContextFree>::Spec{.capacity = kNeverFull, .latency = latency, .interval = 0});
+  packet_arbiter_->in_free(*links.traversal_to_arbiter);
+
+  for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+    TraversalUnit& unit = *traversal_units_[i];
+    links.arbiter_to_traversal.push_back(std::make_unique<PacketChannel>(
+        number("arbiter_to_traversal", i).c_str(),
+        PacketChannel::Spec{.capacity = kNeverFull, .latency = latency}));
+    packet_arbiter_->out_packets(*links.arbiter_to_traversal.back());
+    unit.in_packets(*links.arbiter_to_traversal.back());
+    links.intersection_to_traversal.push_back(std::make_unique<TimedChannel<LeafDone>>(
+        number("intersection_to_traversal", i).c_str(),
+        TimedChannel<LeafDone>::Spec{.capacity = kNeverFull, .latency = latency}));
+    unit.in_done(*links.intersection_to_traversal.back());
+    unit.out_free(*links.traversal_to_arbiter);
+  }
+  for (std::size_t i = 0; i < intersection_units_.size(); ++i) {
+    IntersectionUnit& unit = *intersection_units_[i];
+    links.traversal_to_intersection.push_back(std::make_unique<TimedChannel<LeafJob>>(
+        number("traversal_to_intersection", i).c_str(),
+        TimedChannel<LeafJob>::Spec{.capacity = depth, .latency = latency}));
+    unit.in_jobs(*links.traversal_to_intersection.back());
+    for (auto& traversal : traversal_units_) {
+      traversal->out_jobs(*links.traversal_to_intersection.back());
+    }
+    for (auto& link : links.intersection_to_traversal) unit.out_done(*link);
+  }
+  links.shader_to_film = std::make_unique<TimedChannel<FilmBatch*>>(
+      "shader_to_film", TimedChannel<FilmBatch*>::Spec{.capacity = depth, .latency = latency});
+  film_->in_batches(*links.shader_to_film);
+  for (std::size_t i = 0; i < shader_units_.size(); ++i) {
+    ShaderUnit& unit = *shader_units_[i];
+    links.traversal_to_shader.push_back(
+        std::make_unique<PacketChannel>(number("traversal_to_shader", i).c_str(),
+                                        PacketChannel::Spec{.capacity = depth, .latency = latency}));
+    unit.in_packets(*links.traversal_to_shader.back());
+    for (auto& traversal : traversal_units_) {
+      traversal->out_packets(*links.traversal_to_shader.back());
+    }
+    unit.out_film(*links.shader_to_film);
+    if (plan_.secondary_rays) unit.out_bundles(*links.spawned_rays);
+  }
+}
+
+bool Machine::run(const Monitor& monitor) {
+  if (monitor) {
+    domain_.set_monitor([&](Cycles now) { return monitor(primary_source_->progress(), now); });
+  }
+  if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
+  sc_core::sc_start();
+  end_ = domain_.now() + 1;
+  complete_ = domain_.ran_dry() && flow_.finished();
+  finish_accounts(end_);
+  if (domain_.ran_dry()) {
+    if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());
+    check_conservation();
+  }
+  return complete_;
+}
+
+void Machine::finish_accounts(Cycles end) {
+  for (auto& unit : traversal_units_) unit->finish(end);
+  for (auto& unit : intersection_units_) unit->finish(end);
+  for (auto& unit : shader_units_) unit->finish(end);
+  primary_source_->finish(end);
+  packet_arbiter_->finish(end);
+  film_->finish(end);
+  if (ray_cache_) ray_cache_->finish(end);
+  if (spawn_router_) spawn_router_->finish(end);
+}
+
+std::string Machine::describe_stuck() const {
+  std::string text =
+      fmt::format("the machine made no more progress after cycle {}: {} rays in the loop",
+                  domain_.now(), flow_.live());
+  const auto add = [&](const Agent* agent) {
+    if (agent == nullptr) return;
+    const std::string reason = agent->stuck_reason();
+    if (!reason.empty()) text += "; " + reason;
+  };
+  for (const auto& unit : traversal_units_) add(unit.get());
+  for (const auto& unit : intersection_units_) add(unit.get());
+  for (const auto& unit : shader_units_) add(unit.get());
+  add(primary_source_.get());
+  add(packet_arbiter_.get());
+  add(ray_cache_.get());
+  add(spawn_router_.get());
+  add(film_.get());
+  add(l2_.get());
+  if (links_->packet_fifo && links_->packet_fifo->size() != 0) {
+    text += fmt::format("; packet_fifo: {} packets", links_->packet_fifo->size());
+  }
+  return text;
+}
+
+}  // namespace sheaf

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "system/machine.h"
+#include "system/machine_links.h"
+#include "system/report_parts.h"
+
+namespace sheaf {
+
+void Machine::report(StatsTree& stats) const {
+  const double seconds = static_cast<double>(end_) / config_.clock.frequency;
+  stats.add("system.cycles", end_, "cycles", "Length of the run");
+  stats.add_real("system.seconds", seconds, "s", "Length of the run in simulated time");
+  stats.add_ratio("system.frames_per_second", complete_ ? 1.0 : 0.0, seconds, "1/s",
+                  "Frames per second of simulated time; 0 for a partial frame");
+  const auto rays = static_cast<double>(frame_.rays.total().retired);
+  stats.add_ratio("system.rays_per_cycle", rays, static_cast<double>(end_), "rays",
+                  "Rays retired per cycle");
+  stats.add("system.max_rays_in_flight", flow_.max_live(), "rays",
+            "Most rays in the loop at a time, those in the ray cache included");
+  stats.add("system.packets_made", packets_.num_made(), "packets",
+            "Most packets in flight at a time");
+  stats.add("system.num_wakes", domain_.num_wakes(), "events",
+            "Times a unit was woken: the simulator's own work");
+  report_units(stats);
+  report_links(stats);
+  report_memory(stats);
+}
+
+void Machine::report_units(StatsTree& stats) const {
+  const auto unit = [&](const std::string& path, const auto& module) {
+    stats.add_counters(path, module.stalls());
+  };
+  stats.add_counters("system.primary_source", primary_source_->stats());
+  unit("system.primary_source", *primary_source_);
+  stats.add_counters("system.packet_arbiter", packet_arbiter_->stats());
+  unit("system.packet_arbiter", *packet_arbiter_);
+  if (ray_cache_) {
+    report_sorter(ray_cache_->sorter(), "system.ray_cache", stats);
+    unit("system.ray_cache", *ray_cache_);
+  }
+  if (spawn_router_) {
+    stats.add_counters("system.spawn_router", spawn_router_->stats());
+    unit("system.spawn_router", *spawn_router_);
+  }
+  TraceCounts primary;
+  TraceCounts secondary;
+  for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+    const TraversalUnit& traversal = *traversal_units_[i];
+    const std::string path = fmt::format("system.traversal_unit{}", i);
+    stats.add_counters(path, traversal.pipeline_stats());
+    unit(path, traversal);
+    primary += traversal.primary_counts();
+    secondary += traversal.secondary_counts();
+  }
+  for (std::size_t i = 0; i < intersection_units_.size(); ++i) {
+    const std::string path = fmt::format("system.intersection_unit{}", i);
+    stats.add_counters(path, intersection_units_[i]->pipeline_stats());
+    unit(path, *intersection_units_[i]);
+  }
+  for (std::size_t i = 0; i < shader_units_.size(); ++i) {
+    const std::string path = fmt::format("system.shader_unit{}", i);
+    stats.add_counters(path, shader_units_[i]->pipeline_stats());
+    unit(path, *shader_units_[i]);
+  }
+  stats.add_counters("system.film", film_->stats());
+  unit("system.film", *film_);
+  report_traces(primary, secondary, plan_.secondary_rays, stats);
+}
+
+void Machine::report_links(StatsTree& stats) const {
+  const auto link = [&](const std::string& path, const auto& channel) {
+    stats.add(path + ".num_written", channel.num_written(), "messages", "Messages sent");
+    stats.add(path + ".max_occupancy", channel.max_size(), "messages",
+              "Most messages on the way or waiting at a time");
+  };
+  link("system.link.source_to_arbiter", *links_->source_to_arbiter);
+  if (links_->packet_fifo) link("system.packet_fifo", *links_->packet_fifo);
+  if (links_->spawned_rays) link("system.link.spawned_rays", *links_->spawned_rays);
+  for (std::size_t i = 0; i < links_->traversal_to_intersection.size(); ++i) {
+    link(fmt::format("system.link.traversal_to_intersection{}", i),
+         *links_->traversal_to_intersection[i]);
+  }
+  for (std::size_t i = 0; i < links_->traversal_to_shader.size(); ++i) {
+    link(fmt::format("system.link.traversal_to_shader{}", i), *links_->traversal_to_shader[i]);
+  }
+  link("system.link.shader_to_film", *links_->shader_to_film);
+}
+
+void Machine::report_memory(StatsTree& stats) const {
+  const auto cache = [&](const std::string& path, const CacheStats& counters) {
+    stats.add_counters(path, counters);
+    stats.add_ratio(path + ".hit_rate", counters.num_hits, counters.num_accesses, "1",
+                    "Hits per access; merges are no hits");
+  };
+  for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+    cache(fmt::format("system.traversal_unit{}.node_cache", i),
+          traversal_units_[i]->cache_stats());
+  }
+  for (std::size_t i = 0; i < intersection_units_.size(); ++i) {
+    cache(fmt::format("system.intersection_unit{}.triangle_cache", i),
+          intersection_units_[i]->cache_stats());
+  }
+  for (std::size_t i = 0; i < shader_units_.size(); ++i) {
+    cache(fmt::format("system.shader_unit{}.attribute_cache", i),
+          shader_units_[i]->attribute_cache_stats());
+    const CacheStats* texture = shader_units_[i]->texture_cache_stats();
+    if (texture != nullptr) cache(fmt::format("system.shader_unit{}.texture_cache", i), *texture);
+  }
+  cache("system.film.cache", film_->cache_stats());
+  stats.add_counters("system.l2", l2_->stats());
+  stats.add_ratio("system.l2.hit_rate", l2_->stats().num_hits, l2_->stats().num_accesses, "1",
+                  "Hits per request; merges are no hits");
+  for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
+    const std::string path =
+        fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
+    stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
+  }
+  stats.add_counters("system.dram", dram_->stats());
+  const auto rays = static_cast<double>(frame_.rays.total().retired);
+  stats.add_ratio("system.dram.bytes_per_ray",
+                  static_cast<double>(dram_->stats().bytes_read + dram_->stats().bytes_written),
+                  rays, "bytes", "Bytes moved to and from DRAM per ray");
+  stats.add_ratio("system.dram.bus_utilization", dram_->stats().bus_busy_cycles, end_, "1",
+                  "Share of cycles in which the data bus moved data");
+}
+
+}  // namespace sheaf

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "system/pipeline_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.h"
+
+namespace sheaf {
+namespace {
+
+WorstCase worst_case(const Config& config, const BuildPlan& plan, const Scene& scene) {
+  const auto lights = static_cast<std::uint32_t>(plan.shadow_rays ? scene.lights.size() : 0);
+  const std::uint32_t branches =
+      (plan.reflection_rays ? 1U : 0U) + (plan.refraction_rays ? 1U : 0U);
+  return {config.render.recursion_level, lights, branches};
+}
+
+std::uint64_t credits(const Config& config, const WorstCase& worst) {
+  const std::uint64_t one_ray = worst.of({});
+  const std::uint64_t one_packet = one_ray * config.packet.size;
+  const std::uint64_t tile = std::uint64_t{config.flow.tile_size} * config.flow.tile_size;
+  if (config.flow.credits == 0) return std::max(one_packet, one_ray * tile);
+  if (config.flow.control == FlowPolicy::kCredits && config.flow.credits < one_packet) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("flow.credits = {}: the worst case of one primary packet is {} rays; "
+                            "give at least that many, or 0 for the worst case of a tile",
+                            config.flow.credits, one_packet));
+  }
+  return config.flow.credits;
+}
+
+}  // namespace
+
+FlowControl make_flow_control(const Config& config, const BuildPlan& plan, const Scene& scene) {
+  const WorstCase worst = worst_case(config, plan, scene);
+  return {config.flow, worst, credits(config, worst)};
+}
+
+TraversalScheme scheme_of(Scheme scheme) {
+  return scheme == Scheme::kSingle ? TraversalScheme::kSingle : TraversalScheme::kMasked;
+}
+
+}  // namespace sheaf

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "config/config.h"
+#include "system/build_plan.h"
+#include "traversal/trace.h"
+#include "units/flow_control.h"
+
+namespace sheaf {
+
+// What the timed machine and the untimed pipeline derive from the configuration in the same way.
+
+/// Throws Error(kUsage) if flow.credits cannot admit a single primary packet.
+[[nodiscard]] FlowControl make_flow_control(const Config& config, const BuildPlan& plan,
+                                            const Scene& scene);
+
+[[nodiscard]] TraversalScheme scheme_of(Scheme scheme);
+
+}  // namespace sheaf

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "system/prepared_scene.h"
+
+#include "image/film.h"
+#include "kdtree/build.h"
+
+namespace sheaf {
+namespace {
+
+KdTree build_tree(const Scene& scene, const KdTreeSpec& spec) {
+  return build_kd_tree(scene.positions, scene.triangles,
+                       {.traversal_cost = spec.traversal_cost,
+                        .intersection_cost = spec.intersection_cost,
+                        .empty_bonus = spec.empty_bonus,
+                        .max_depth = static_cast<int>(spec.max_depth)});
+}
+
+std::vector<TriangleRecord> make_records(const Scene& scene) {
+  std::vector<TriangleRecord> records;
+  records.reserve(scene.triangles.size());
+  for (const auto& corners : scene.triangles) {
+    records.push_back({scene.positions[corners[0]], scene.positions[corners[1]],
+                       scene.positions[corners[2]]});
+  }
+  return records;
+}
+
+MemoryMap map_memory(const Scene& scene, const KdTree& tree, const Config& config) {
+  MemoryCounts counts;
+  counts.nodes = tree.nodes.size();
+  counts.leaf_entries = tree.leaf_triangles.size();
+  counts.triangles = scene.triangles.size();
+  counts.vertices = scene.positions.size();
+  counts.materials = scene.materials.size();
+  for (const Texture& texture : scene.textures) {
+    counts.textures.push_back({texture.width, texture.height});
+  }
+  counts.pixels = std::uint64_t{config.image.width} * config.image.height;
+  counts.bytes_per_pixel = make_film(config.film.format, 1)->bytes_per_pixel();
+  return MemoryMap(counts);
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(Scene&& loaded, const Config& config)
+    : scene(std::move(loaded)),
+      tree(build_tree(scene, config.kdtree)),
+      triangles(make_records(scene)),
+      memory(map_memory(scene, tree, config)) {}
+
+}  // namespace sheaf

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+
+#include "traversal/pass_rays.h"
+#include "traversal/trace.h"
+
+namespace sheaf {
+
+/// Where a traversal cursor reports what it touched: counts, and if kRecord the log and the counts
+/// by lane as far as they are wanted.
+template <bool kRecord>
+class Recorder {
+ public:
+  Recorder(TraceLog* log, LaneCounts* lanes) : log_(log), lanes_(lanes) {}
+
+  /// The lane numbers that follow are those of `rays`.
+  void start(const PassRays& rays) { rays_ = &rays; }
+
+  void inner(std::uint32_t node, LaneMask lanes) {
+    ++counts_.packet_inner_visits;
+    counts_.lane_inner_visits += count(lanes);
+    log(node, 0);
+    add(&LaneCounts::inner_visits, lanes);
+  }
+  void leaf(LaneMask lanes) {
+    ++counts_.packet_leaf_visits;
+    counts_.lane_leaf_visits += count(lanes);
+  }
+  void triangle(LaneMask lanes) {
+    counts_.lane_triangle_tests += count(lanes);
+    add(&LaneCounts::triangle_tests, lanes);
+  }
+  void leaf_done(std::uint32_t node, std::uint32_t num_tests) {
+    counts_.packet_triangle_tests += num_tests;
+    log(node, num_tests);
+  }
+  [[nodiscard]] const TraceCounts& counts() const { return counts_; }
+
+ private:
+  static std::uint64_t count(LaneMask lanes) {
+    return static_cast<std::uint64_t>(std::popcount(lanes));
+  }
+  void log(std::uint32_t node, std::uint32_t num_tests) {
+    if constexpr (kRecord) {
+      if (log_ != nullptr) log_->push_back({node, num_tests});
+    }
+  }
+  void add(Lanes<std::uint32_t> LaneCounts::*counters, LaneMask lanes) {
+    if constexpr (kRecord) {
+      if (lanes_ == nullptr) return;
+      for (; lanes != 0; lanes &= lanes - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+        ++(lanes_->*counters)[rays_->packet_lane[lane]];
+      }
+    }
+  }
+
+  TraceLog* log_;
+  LaneCounts* lanes_;
+  const PassRays* rays_ = nullptr;
+  TraceCounts counts_;
+};
+
+}  // namespace sheaf

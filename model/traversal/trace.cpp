@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "traversal/trace.h"
+
+// The kernels keep vectors in arrays, which vectors of unknown size cannot; and SSSE3 alone is not
+// worth its compile time.
+#define HWY_DISABLED_TARGETS \
+  (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "traversal/trace.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "traversal/masked-inl.h"
+#include "traversal/ray_setup-inl.h"
+#include "traversal/recorder.h"
+#include "traversal/single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sheaf::HWY_NAMESPACE {
+
+/// Bit i is set if lane i of `values` has its sign bit set.
+HWY_INLINE LaneMask sign_bits(const Lanes<float>& values, int size) {
+  LaneMask bits = 0;
+  const FloatTag d;
+  for (std::size_t g = 0; g * kGroupLanes < static_cast<std::size_t>(size); ++g) {
+    const FloatVec one = hn::CopySign(hn::Set(d, 1.0F), load(values, g));
+    bits |= bits_of(hn::Lt(one, hn::Zero(d))) << (g * kGroupLanes);
+  }
+  return bits;
+}
+
+/// Puts the results of a pass back into the packet's lanes.
+HWY_INLINE void unpack(const PassRays& rays, RayPacket& packet) {
+  for (std::size_t from = 0; from < static_cast<std::size_t>(rays.count); ++from) {
+    const std::size_t to = rays.packet_lane[from];
+    const bool hit = ((rays.has_hit >> from) & 1U) != 0;
+    packet.hit_t[to] = hit ? rays.hit_t[from] : packet.t_max[to];
+    packet.hit_u[to] = hit ? rays.hit_u[from] : 0.0F;
+    packet.hit_v[to] = hit ? rays.hit_v[from] : 0.0F;
+    packet.hit_triangle[to] = hit ? rays.hit_triangle[from] : kNoHit;
+  }
+}
+
+template <class Recorder>
+HWY_INLINE void walk_single(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
+                            Recorder& recorder) {
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(rays.count); ++lane) {
+    if (!(rays.enter[lane] <= rays.leave[lane])) continue;
+    walk_lane(tree, triangles, rays, lane, 0, rays.enter[lane], rays.leave[lane], recorder);
+  }
+}
+
+/// Walks with the fewest vectors that hold the rays, of the numbers of vectors compiled.
+template <std::size_t kGroups, class Recorder>
+HWY_INLINE void walk_masked(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
+                            Recorder& recorder) {
+  if constexpr (kGroups * kGroupLanes < kMaxPacketSize) {
+    if (static_cast<std::size_t>(rays.count) > kGroups * kGroupLanes) {
+      constexpr std::size_t kMore = kGroupLanes * kGroups == 4 ? 4 : 2;
+      walk_masked<kMore * kGroups>(tree, triangles, rays, recorder);
+      return;
+    }
+  }
+  MaskedCursor<kGroups>(tree, triangles, rays).walk(recorder);
+}
+
+template <bool kRecord>
+void trace(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,
+           RayPacket& packet, TraceLog* log, LaneCounts* lanes, TraceCounts& counts) {
+  PassRays rays;
+  Recorder<kRecord> recorder(log, lanes);
+  recorder.start(rays);
+  if (scheme == TraversalScheme::kSingle) {
+    set_up_rays(packet, packet.active, tree.bounds, rays);
+    walk_single(tree, triangles, rays, recorder);
+    unpack(rays, packet);
+    counts.passes += static_cast<std::uint64_t>(rays.count);
+  } else {
+    const LaneMask signs[3] = {sign_bits(packet.direction[0], packet.size),
+                               sign_bits(packet.direction[1], packet.size),
+                               sign_bits(packet.direction[2], packet.size)};
+    for (LaneMask sign = 0; sign < 8; ++sign) {
+      LaneMask members = packet.active;
+      for (std::size_t a = 0; a < 3; ++a) {
+        members &= ((sign >> a) & 1U) != 0 ? signs[a] : ~signs[a];
+      }
+      if (members == 0) continue;
+      set_up_rays(packet, members, tree.bounds, rays);
+      rays.sign = sign;
+      constexpr std::size_t kLeastGroups = kGroupLanes == 1 ? kMaxPacketSize : 1;
+      walk_masked<kLeastGroups>(tree, triangles, rays, recorder);
+      unpack(rays, packet);
+      ++counts.passes;
+    }
+  }
+  counts += recorder.counts();
+}
+
+void trace_counted(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,
+                   RayPacket& packet, TraceLog* log, LaneCounts* lanes, TraceCounts& counts) {
+  trace<false>(scheme, tree, triangles, packet, log, lanes, counts);
+}
+void trace_recorded(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,
+                    RayPacket& packet, TraceLog* log, LaneCounts* lanes, TraceCounts& counts) {
+  trace<true>(scheme, tree, triangles, packet, log, lanes, counts);
+}
+
+}  // namespace sheaf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sheaf {
+
+HWY_EXPORT(trace_counted);
+HWY_EXPORT(trace_recorded);
+
+void trace_packet(TraversalScheme scheme, const KdTree& tree,
+                  const std::vector<TriangleRecord>& triangles, RayPacket& packet, TraceLog* log,
+                  LaneCounts* lanes, TraceCounts& counts) {
+  if (log != nullptr) log->clear();
+  if (lanes != nullptr) *lanes = {};
+  if (packet.active == 0) return;
+  const TriangleRecord* const records = triangles.data();
+  if (log == nullptr && lanes == nullptr) {
+    HWY_DYNAMIC_DISPATCH(trace_counted)(scheme, tree, records, packet, log, lanes, counts);
+  } else {
+    HWY_DYNAMIC_DISPATCH(trace_recorded)(scheme, tree, records, packet, log, lanes, counts);
+  }
+}
+
+}  // namespace sheaf
+#endif  // HWY_ONCE

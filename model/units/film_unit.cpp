@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "units/film_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sheaf {
+
+FilmUnit::FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, Film& film,
+                   const MemoryMap& memory, ObjectPool<FilmBatch>& batches, FlowControl& flow,
+                   ClockDomain& domain, TimedOut<LineRequest>& requests, std::uint16_t requester)
+    : sc_module(name),
+      in_batches("in_batches"),
+      in_lines("in_lines"),
+      film_(film),
+      memory_(memory),
+      batches_(batches),
+      flow_(flow),
+      domain_(domain),
+      cache_(cache, requests, requester) {
+  inbox_.bind(domain, domain.add(*this));
+  flow.bind_film(inbox_);
+}
+
+void FilmUnit::end_of_elaboration() {
+  in_batches->set_consumer(inbox_);
+  in_lines->set_consumer(inbox_);
+}
+
+Cycles FilmUnit::wake(Cycles now) {
+  for (;;) {
+    const Cycles next = act(now);
+    if (next >= domain_.horizon()) return next;
+    now = next;
+  }
+}
+
+Cycles FilmUnit::act(Cycles now) {
+  accept_lines(now);
+  if (batch_ == nullptr && in_batches->has_arrived(now)) {
+    batch_ = in_batches->read(now);
+    position_ = 0;
+    next_line_ = 0;
+    ++stats_.num_batches;
+  }
+  const Cycles next_line = in_lines->next_arrival();
+  if (batch_ != nullptr) {
+    if (waits_for_mshr_ || !add_next(now)) {
+      stalls_.switch_to(StallCause::kWaitingMemory, now);
+      return next_line;
+    }
+    stalls_.switch_to(StallCause::kBusy, now);
+    return now + 1;
+  }
+  const Cycles next = std::min(next_line, in_batches->next_arrival());
+  if (flow_.finished() && next == kNever && !cache_.has_pending()) return flush_next(now);
+  stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
+  return next;
+}
+
+void FilmUnit::accept_lines(Cycles now) {
+  while (in_lines->has_arrived(now)) {
+    std::uint64_t retry = 0;
+    cache_.fill(in_lines->read(now), now, retry);
+    if (retry != 0) waits_for_mshr_ = false;
+  }
+}
+
+// False if there is no free MSHR; the lines asked for so far are not asked for again.
+bool FilmUnit::add_next(Cycles now) {
+  const PixelContribution& contribution = (*batch_)[position_];
+  const Address first = memory_.pixel(contribution.pixel);
+  const std::uint64_t last_line = cache_.line_of(first + film_.bytes_per_pixel() - 1);
+  if (next_line_ == 0) next_line_ = cache_.line_of(first);
+  for (; next_line_ <= last_line; ++next_line_) {
+    if (cache_.modify(next_line_, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
+      waits_for_mshr_ = true;
+      return false;
+    }
+  }
+  next_line_ = 0;
+  film_.add(contribution.pixel, contribution.radiance);
+  ++stats_.num_contributions;
+  if (++position_ == batch_->size()) {
+    batch_->clear();
+    batches_.release(batch_);
+    batch_ = nullptr;
+  }
+  return true;
+}
+
+Cycles FilmUnit::flush_next(Cycles now) {
+  if (!flushing_) {
+    flushing_ = true;
+    dirty_lines_ = cache_.take_dirty_lines();
+  }
+  if (dirty_lines_.empty()) {
+    stalls_.switch_to(StallCause::kIdle, now);
+    return kNever;
+  }
+  cache_.write_back(dirty_lines_.back(), now);
+  dirty_lines_.pop_back();
+  stalls_.switch_to(StallCause::kBusy, now);
+  return now + 1;
+}
+
+std::string FilmUnit::stuck_reason() const {
+  if (batch_ == nullptr && !cache_.has_pending()) return {};
+  return fmt::format("{}: {}", name(),
+                     waits_for_mshr_ ? "waits for a free MSHR" : "waits for memory");
+}
+
+}  // namespace sheaf

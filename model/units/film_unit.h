@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+#include <vector>
+
+#include "base/object_pool.h"
+#include "channels/timed_channel.h"
+#include "image/film.h"
+#include "kdtree/memory_map.h"
+#include "memory/private_cache.h"
+#include "stats/stall_account.h"
+#include "units/flow_control.h"
+#include "units/shader_unit.h"
+
+namespace sheaf {
+
+#define SHEAF_FILM_COUNTERS(X)                                            \
+  X(num_batches, "batches", "Packets whose contributions came in")        \
+  X(num_contributions, "pixels", "Contributions added to a pixel")
+SHEAF_STATS(FilmStats, SHEAF_FILM_COUNTERS);
+
+/// Adds contributions to the frame buffer, one a cycle, in order of arrival, through a write-back
+/// cache. An addition whose line is on its way waits in that line's MSHR, so that only a lack of
+/// MSHRs holds the unit up. When the last ray has retired, the dirty lines are written back, one a
+/// cycle.
+class FilmUnit final : public sc_core::sc_module, public Agent {
+ public:
+  FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, Film& film,
+           const MemoryMap& memory, ObjectPool<FilmBatch>& batches, FlowControl& flow,
+           ClockDomain& domain, TimedOut<LineRequest>& requests, std::uint16_t requester);
+
+  sc_core::sc_port<TimedIn<FilmBatch*>> in_batches;
+  sc_core::sc_port<TimedIn<LineResponse>> in_lines;
+
+  Cycles wake(Cycles now) override;
+  [[nodiscard]] std::string stuck_reason() const override;
+
+  [[nodiscard]] const FilmStats& stats() const { return stats_; }
+  [[nodiscard]] const CacheStats& cache_stats() const { return cache_.stats(); }
+  [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
+  void finish(Cycles end) { stalls_.finish(end); }
+
+ private:
+  void end_of_elaboration() override;
+  Cycles act(Cycles now);
+  void accept_lines(Cycles now);
+  bool add_next(Cycles now);
+  Cycles flush_next(Cycles now);
+
+  Film& film_;
+  const MemoryMap& memory_;
+  ObjectPool<FilmBatch>& batches_;
+  FlowControl& flow_;
+  ClockDomain& domain_;
+  Inbox inbox_;
+  PrivateCache cache_;
+  FilmBatch* batch_ = nullptr;       ///< being added
+  std::size_t position_ = 0;
+  std::uint64_t next_line_ = 0;      ///< of the contribution at position_, already asked for
+  bool waits_for_mshr_ = false;
+  std::vector<std::uint64_t> dirty_lines_;
+  bool flushing_ = false;
+  FilmStats stats_;
+  StallAccount stalls_;
+};
+
+}  // namespace sheaf

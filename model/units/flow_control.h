@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "channels/clock_domain.h"
+#include "config/config.h"
+#include "geometry/ray.h"
+
+namespace sheaf {
+
+/// Worst case of what one ray can turn into: the most rays that may wait or travel in its place at
+/// a time. A hit replaces a ray by one shadow ray a light and, below the recursion level, by
+/// `branches` rays one deeper; shadow rays end.
+///   W(L) = max(1, lights)      W(d) = max(1, lights + branches · W(d + 1))
+class WorstCase {
+ public:
+  WorstCase(std::uint32_t recursion_level, std::uint32_t lights, std::uint32_t branches) {
+    at_depth_.assign(recursion_level + 1, std::max<std::uint64_t>(1, lights));
+    for (std::uint32_t d = recursion_level; d-- > 0;) {
+      const std::uint64_t all = lights + branches * at_depth_[d + 1];
+      at_depth_[d] = std::clamp<std::uint64_t>(all, 1, kCeiling);
+    }
+  }
+  [[nodiscard]] std::uint64_t of(const RayTag& tag) const {
+    return tag.kind == RayKind::kShadow ? 1 : at_depth_[tag.depth];
+  }
+
+  /// High enough to be out of any machine's reach, low enough never to overflow a sum.
+  static constexpr std::uint64_t kCeiling = std::uint64_t{1} << 40;
+
+ private:
+  std::vector<std::uint64_t> at_depth_;
+};
+
+/// Counts the rays in the loop and says when a tile is finished, when the ray cache must be swept
+/// and whether another primary packet fits.
+class FlowControl {
+ public:
+  FlowControl(const FlowSpec& spec, const WorstCase& worst_case, std::uint64_t credits)
+      : worst_case_(worst_case), credits_(credits), by_tile_(spec.control == FlowPolicy::kTile) {}
+
+  void bind_source(Inbox& inbox) { source_ = &inbox; }
+  void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }
+  void bind_film(Inbox& inbox) { film_ = &inbox; }
+
+  [[nodiscard]] bool by_tile() const { return by_tile_; }
+  [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
+  [[nodiscard]] bool admits(std::uint64_t reservation) const {
+    return by_tile_ || reserved_ + reservation <= credits_;
+  }
+  void admit(std::uint64_t rays, std::uint64_t reservation) {
+    live_ += rays;
+    reserved_ += reservation;
+    max_live_ = std::max(max_live_, live_);
+  }
+
+  /// One packet's rays have been shaded: `retired` rays are gone, `spawned` have come.
+  void replace(std::uint64_t retired, std::uint64_t spawned, std::uint64_t reserved_before,
+               std::uint64_t reserved_after, Cycles now) {
+    live_ = live_ + spawned - retired;
+    max_live_ = std::max(max_live_, live_);
+    reserved_ = reserved_ + reserved_after - reserved_before;
+    if (is_quiet()) {
+      nudge(source_, now);
+      nudge(regrouper_, now);
+    } else if (!by_tile_) {
+      nudge(source_, now);
+    }
+    if (live_ == 0 && source_state_ == Source::kExhausted) nudge(film_, now);
+  }
+
+  /// Rays in the cells of the ray cache, which move only when others arrive or a sweep comes.
+  void set_waiting(std::uint64_t waiting) { waiting_ = waiting; }
+  /// Nothing moves: every ray in the loop waits in a cell.
+  [[nodiscard]] bool is_quiet() const { return live_ == waiting_; }
+
+  enum class Source : std::uint8_t { kIssuing, kTileIssued, kNoCredit, kExhausted };
+  void set_source(Source state, Cycles now) {
+    source_state_ = state;
+    if (state != Source::kIssuing && is_quiet()) {
+      nudge(regrouper_, now);
+      if (live_ == 0 && state == Source::kExhausted) nudge(film_, now);
+    }
+  }
+  [[nodiscard]] Source source() const { return source_state_; }
+  [[nodiscard]] std::uint64_t live() const { return live_; }
+  [[nodiscard]] std::uint64_t max_live() const { return max_live_; }
+  [[nodiscard]] bool finished() const {
+    return live_ == 0 && source_state_ == Source::kExhausted;
+  }
+
+ private:
+  static void nudge(Inbox* inbox, Cycles now) {
+    if (inbox != nullptr) inbox->nudge(now + 1);
+  }
+
+  const WorstCase worst_case_;
+  const std::uint64_t credits_;
+  const bool by_tile_;
+  std::uint64_t live_ = 0;
+  std::uint64_t waiting_ = 0;
+  std::uint64_t reserved_ = 0;
+  std::uint64_t max_live_ = 0;
+  Source source_state_ = Source::kIssuing;
+  Inbox* source_ = nullptr;
+  Inbox* regrouper_ = nullptr;
+  Inbox* film_ = nullptr;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "units/line_fetcher.h"
+#include "units/messages.h"
+#include "units/multi_context_unit.h"
+#include "units/traversal_unit.h"
+
+namespace sheaf {
+
+/// Tests a packet's rays against the triangles of a leaf: fetches the leaf's list, then triangle
+/// after triangle its record and one step of the packet's lanes. The hits themselves have been
+/// computed with the walk.
+class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
+ public:
+  IntersectionUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
+                   const CacheSpec& cache, const TracedScene& scene, ClockDomain& domain,
+                   TimedOut<LineRequest>& memory, std::uint16_t requester);
+
+  sc_core::sc_port<TimedIn<LeafJob>> in_jobs;
+  sc_core::sc_port<TimedIn<LineResponse>> in_lines;
+  sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
+
+  [[nodiscard]] const CacheStats& cache_stats() const { return cache_.stats(); }
+  [[nodiscard]] std::string stuck_reason() const override;
+
+ private:
+  friend class MultiContextUnit<IntersectionUnit>;
+  enum class Phase : std::uint8_t { kList, kListIssued, kTriangle, kTriangleIssued };
+  struct Context {
+    LeafJob job;
+    std::uint32_t tested = 0;
+    Phase phase = Phase::kList;
+  };
+
+  void end_of_elaboration() override;
+  Cycles accept_inputs(Cycles now);
+  void ready(int context, Cycles now);
+  void issue(int context, Cycles now);
+  bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
+             Cycles now);
+
+  const TracedScene scene_;
+  PrivateCache cache_;
+  LineFetcher fetcher_;
+  std::vector<Context> contexts_;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <bit>
+
+#include "memory/private_cache.h"
+
+namespace sheaf {
+
+/// A context's progress through the lines that its step needs.
+struct LineFetch {
+  std::uint32_t next = 0;     ///< lines before this one have been asked for
+  std::uint32_t pending = 0;  ///< of those, still on their way
+};
+
+/// Steps of a unit's contexts that need several lines of one private cache.
+class LineFetcher {
+ public:
+  explicit LineFetcher(PrivateCache& cache) : cache_(cache) {}
+
+  struct Outcome {
+    bool complete = false;       ///< every line is there
+    std::uint32_t lookups = 0;   ///< made now
+  };
+
+  /// Asks for the lines that the context's step has not asked for yet; line(i) is the i-th of
+  /// num_lines. Incomplete: wait for fill() to name the context.
+  template <typename LineOf>
+  Outcome fetch(int context, std::uint32_t num_lines, DataKind kind, const LineOf& line,
+                Cycles now) {
+    LineFetch& progress = progress_[static_cast<std::size_t>(context)];
+    Outcome outcome;
+    while (progress.next < num_lines) {
+      ++outcome.lookups;
+      const auto result = cache_.read(line(progress.next), kind, context, now);
+      if (result == PrivateCache::Result::kNoMshr) break;
+      if (result == PrivateCache::Result::kPending) ++progress.pending;
+      ++progress.next;
+    }
+    outcome.complete = progress.next == num_lines && progress.pending == 0;
+    if (outcome.complete) progress = {};
+    return outcome;
+  }
+
+  /// Takes an arrived line in; calls ready(context) for each context that may be issued again.
+  template <typename Ready>
+  void fill(const LineResponse& response, Cycles now, const Ready& ready) {
+    std::uint64_t retry = 0;
+    std::uint64_t waiters = cache_.fill(response, now, retry);
+    for (std::uint64_t left = waiters; left != 0; left &= left - 1) {
+      const int context = std::countr_zero(left);
+      if (--progress_[static_cast<std::size_t>(context)].pending == 0) retry |= left & -left;
+    }
+    for (std::uint64_t left = retry; left != 0; left &= left - 1) {
+      const int context = std::countr_zero(left);
+      if (progress_[static_cast<std::size_t>(context)].pending == 0) ready(context);
+    }
+  }
+
+ private:
+  PrivateCache& cache_;
+  std::array<LineFetch, 64> progress_{};
+};
+
+}  // namespace sheaf

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string>
+#include <systemc>
+
+#include "channels/clock_domain.h"
+#include "channels/timed_channel.h"
+#include "channels/timing_wheel.h"
+#include "config/config.h"
+#include "memory/private_cache.h"
+#include "stats/counters.h"
+#include "stats/stall_account.h"
+
+namespace sheaf {
+
+// What every unit with contexts counts about its pipeline.
+#define SHEAF_PIPELINE_COUNTERS(X)                                                             \
+  X(num_accepted, "packets", "Packets or jobs taken in")                                      \
+  X(num_issues, "steps", "Steps issued, those repeated after a miss included")                \
+  X(num_reissues, "steps", "Steps issued again after their data had come")                    \
+  X(issue_slots, "cycles", "Cycles in which the issue port was taken")
+SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
+
+/// The skeleton of the traversal, intersection and shader units: up to 64 contexts that take turns
+/// on one issue port, so that one's memory latency is hidden behind the others' work.
+///
+/// A context that is ready joins a queue (of the same cycle: the lowest number first). The port
+/// takes the queue's head as soon as it is free. A step that finds all its lines occupies the port
+/// for its slots and is done after hit latency + unit latency; one that misses occupies it for one
+/// initiation interval, waits until all its lines have come and is issued again, without another
+/// look-up of the lines it had.
+///
+/// Derived provides: accept_inputs(now), ready(context, now) for a context whose time has come, and
+/// issue(context, now); it calls the protected members below.
+template <typename Derived>
+class MultiContextUnit : public sc_core::sc_module, public Agent {
+ public:
+  Cycles wake(Cycles now) final {
+    for (;;) {
+      act(now);
+      Cycles next = wheel_.peek();
+      if (inbox_.next() < next) next = inbox_.next();
+      if (num_ready_ != 0 && port_free_ < next) next = port_free_;
+      if (next >= domain_.horizon()) return next;
+      now = next;
+    }
+  }
+
+  [[nodiscard]] const PipelineStats& pipeline_stats() const { return pipeline_stats_; }
+  [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
+  void finish(Cycles end) {
+    account(end);
+    stalls_.finish(end);
+  }
+  [[nodiscard]] int num_held() const { return std::popcount(held_); }
+
+ protected:
+  MultiContextUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
+                   ClockDomain& domain)
+      : sc_module(name),
+        spec_(spec),
+        domain_(domain),
+        slots_per_step_((static_cast<std::uint32_t>(packet_size) + spec.lanes - 1) / spec.lanes) {
+    inbox_.bind(domain, domain.add(*this));
+    free_ = spec.contexts == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << spec.contexts) - 1;
+  }
+
+  // Contexts, held from take_context() until free_context().
+  [[nodiscard]] bool has_free_context() const { return free_ != 0; }
+  int take_context() {
+    const int context = std::countr_zero(free_);
+    free_ &= free_ - 1;
+    held_ |= std::uint64_t{1} << context;
+    ++pipeline_stats_.num_accepted;
+    return context;
+  }
+  void free_context(int context) {
+    free_ |= std::uint64_t{1} << context;
+    held_ &= ~(std::uint64_t{1} << context);
+  }
+
+  /// ready(context) will be called at `time`.
+  void schedule(int context, Cycles time) {
+    wheel_.schedule(static_cast<std::size_t>(context), time);
+  }
+  /// Joins the queue for the issue port.
+  void enqueue(int context) {
+    ready_queue_[(first_ready_ + num_ready_++) % ready_queue_.size()] =
+        static_cast<std::uint8_t>(context);
+  }
+  /// Occupies the port for a whole step and schedules the context for when it is done.
+  /// `hit_latency`: of the lines it fetched, 0 if none; `port_cycles`: cycles that these accesses
+  /// need of the cache port, if more than its slots.
+  void occupy(int context, Cycles slots, Cycles hit_latency, Cycles port_cycles, Cycles now) {
+    occupy_for(context, std::max(slots * spec_.initiation_interval, port_cycles),
+               hit_latency + spec_.latency, now);
+  }
+  /// Occupies the port for a step that only fetches: one cycle a line, done after hit latency.
+  void occupy_fetch(int context, Cycles hit_latency, Cycles port_cycles, Cycles now) {
+    occupy_for(context, std::max<Cycles>(1, port_cycles), hit_latency, now);
+  }
+  /// Occupies the port for the attempt of a step that missed.
+  void occupy_missed(Cycles port_cycles, Cycles now) {
+    const Cycles taken = std::max(spec_.initiation_interval, port_cycles);
+    port_free_ = now + taken;
+    pipeline_stats_.issue_slots += taken;
+    ++pipeline_stats_.num_issues;
+    if (port_free_ > busy_until_) busy_until_ = port_free_;
+  }
+
+  // Contexts that a full channel holds up.
+  void block(int context) { blocked_ |= std::uint64_t{1} << context; }
+  void unblock(int context) { blocked_ &= ~(std::uint64_t{1} << context); }
+
+  // Contexts whose step waits for lines.
+  void park(int context) { parked_ |= std::uint64_t{1} << context; }
+  void unpark(int context, Cycles now) {
+    parked_ &= ~(std::uint64_t{1} << context);
+    ++pipeline_stats_.num_reissues;
+    schedule(context, now);
+  }
+
+  const UnitSpec spec_;
+  ClockDomain& domain_;
+  Inbox inbox_;
+  const std::uint32_t slots_per_step_;
+
+ private:
+  void act(Cycles now) {
+    account(now);
+    auto& self = static_cast<Derived&>(*this);
+    if (inbox_.next() <= now) inbox_.set_next(self.accept_inputs(now));
+    for (std::uint64_t left = blocked_; left != 0; left &= left - 1) {
+      self.ready(std::countr_zero(left), now);
+    }
+    while (wheel_.peek() == now) self.ready(static_cast<int>(wheel_.pop(now)), now);
+    if (num_ready_ != 0 && port_free_ <= now) {
+      const int context = ready_queue_[first_ready_];
+      first_ready_ = (first_ready_ + 1) % ready_queue_.size();
+      --num_ready_;
+      self.issue(context, now);
+    }
+    stalls_.switch_to(busy_until_ > now ? StallCause::kBusy : waiting_cause(), now);
+  }
+
+  void occupy_for(int context, Cycles taken, Cycles latency, Cycles now) {
+    port_free_ = now + taken;
+    pipeline_stats_.issue_slots += taken;
+    ++pipeline_stats_.num_issues;
+    const Cycles done = port_free_ - 1 + latency;
+    if (done > busy_until_) busy_until_ = done;
+    schedule(context, done);
+  }
+
+  /// Closes the account of the time since the last event, in which nothing changed but that the
+  /// pipeline may have run empty.
+  void account(Cycles now) {
+    if (stalls_.cause() == StallCause::kBusy && busy_until_ < now) {
+      stalls_.switch_to(waiting_cause(), busy_until_);
+    }
+  }
+  [[nodiscard]] StallCause waiting_cause() const {
+    if (blocked_ != 0) return StallCause::kBlockedOutput;
+    if (parked_ != 0) return StallCause::kWaitingMemory;
+    return held_ != 0 ? StallCause::kWaitingInput : StallCause::kIdle;
+  }
+
+  TimingWheel<1> wheel_;
+  std::array<std::uint8_t, 64> ready_queue_{};
+  std::size_t first_ready_ = 0;
+  std::size_t num_ready_ = 0;
+  std::uint64_t free_ = 0;
+  std::uint64_t held_ = 0;
+  std::uint64_t blocked_ = 0;
+  std::uint64_t parked_ = 0;
+  Cycles port_free_ = 0;
+  Cycles busy_until_ = 0;
+  PipelineStats pipeline_stats_;
+  StallAccount stalls_;
+
+ protected:
+  [[nodiscard]] std::uint64_t parked() const { return parked_; }
+  [[nodiscard]] std::uint64_t blocked() const { return blocked_; }
+};
+
+}  // namespace sheaf

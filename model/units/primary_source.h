@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "channels/timed_channel.h"
+#include "config/config.h"
+#include "scene/scene.h"
+#include "scene/tile_order.h"
+#include "stats/counters.h"
+#include "stats/stall_account.h"
+#include "traversal/packet_pool.h"
+#include "units/flow_control.h"
+#include "units/ray_counts.h"
+
+namespace sheaf {
+
+#define SHEAF_PRIMARY_SOURCE_COUNTERS(X)                                            \
+  X(num_packets, "packets", "Primary packets made")                                 \
+  X(num_rays, "rays", "Primary rays made")                                          \
+  X(num_tiles, "tiles", "Tiles begun")
+SHEAF_STATS(PrimarySourceStats, SHEAF_PRIMARY_SOURCE_COUNTERS);
+
+/// Fills a packet with the camera rays of a run of pixels; returns the number of rays.
+std::uint32_t make_primary_packet(const Camera& camera, const ImageSpec& image,
+                                  const TileOrder::Run& run, RayPacket& packet);
+
+/// Makes camera rays, tile by tile, in packets of neighbouring pixels, one packet an interval. With
+/// tile flow control the next tile begins when all rays of the last one and all they spawned have
+/// retired; with credits a packet is made when its worst case fits.
+class PrimarySource final : public sc_core::sc_module, public Agent {
+ public:
+  PrimarySource(const sc_core::sc_module_name& name, const PrimarySourceSpec& spec,
+                const ImageSpec& image, const TileOrder& order, const Camera& camera,
+                PacketPool& packets, RayCounts& rays, FlowControl& flow, ClockDomain& domain);
+
+  sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
+
+  Cycles wake(Cycles now) override;
+  [[nodiscard]] std::string stuck_reason() const override;
+
+  [[nodiscard]] const PrimarySourceStats& stats() const { return stats_; }
+  [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
+  void finish(Cycles end) { stalls_.finish(end); }
+  /// Share of the tiles that have been begun, 0 to 1.
+  [[nodiscard]] double progress() const {
+    return static_cast<double>(order_.tile_index()) / order_.num_tiles();
+  }
+
+ private:
+  Cycles act(Cycles now);
+  bool prepare_packet(Cycles now);
+
+  const PrimarySourceSpec spec_;
+  const ImageSpec image_;
+  TileOrder order_;
+  const Camera& camera_;
+  PacketPool& packets_;
+  RayCounts& rays_;
+  FlowControl& flow_;
+  ClockDomain& domain_;
+  Inbox inbox_;
+  RayPacket* packet_ = nullptr;     ///< made, not yet admitted or sent
+  std::uint64_t reservation_ = 0;   ///< worst case of packet_
+  Cycles next_packet_ = 0;
+  bool tile_begun_ = false;
+  PrimarySourceStats stats_;
+  StallAccount stalls_;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "base/object_pool.h"
+#include "channels/timed_channel.h"
+#include "sorting/ray_sorter.h"
+#include "sorting/spawn_bundle.h"
+#include "stats/stall_account.h"
+#include "units/flow_control.h"
+
+namespace sheaf {
+
+/// The ray cache: takes spawned rays in, bundle by bundle and rays_per_cycle at a time, and sends
+/// the packets that leave to the FIFO. While the FIFO is full nothing is taken in. Sweeps its cells
+/// when nothing else moves and the source has nothing to add.
+class RayCacheUnit final : public sc_core::sc_module, public Agent {
+ public:
+  RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSpec& spec,
+               std::unique_ptr<RaySorter> sorter, ObjectPool<SpawnBundle>& bundles,
+               FlowControl& flow, ClockDomain& domain);
+
+  sc_core::sc_port<TimedIn<SpawnBundle*>> in_bundles;
+  sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
+
+  Cycles wake(Cycles now) override;
+  [[nodiscard]] std::string stuck_reason() const override;
+
+  [[nodiscard]] const RaySorter& sorter() const { return *sorter_; }
+  [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
+  void finish(Cycles end) { stalls_.finish(end); }
+
+ private:
+  void end_of_elaboration() override;
+  Cycles act(Cycles now);
+  bool send_departures(Cycles now);
+  bool insert_rays(Cycles now);
+  bool time_out(Cycles now);
+  bool sweep(Cycles now);
+  [[nodiscard]] Departure sweep_reason() const;
+  [[nodiscard]] Cycles next_time_out() const;
+
+  const RayCacheSpec spec_;
+  std::unique_ptr<RaySorter> sorter_;
+  ObjectPool<SpawnBundle>& bundles_;
+  FlowControl& flow_;
+  ClockDomain& domain_;
+  Inbox inbox_;
+  SpawnBundle* bundle_ = nullptr;  ///< being taken in
+  std::size_t position_ = 0;
+  std::vector<RayPacket*> departures_;
+  std::size_t num_sent_ = 0;       ///< of departures_
+  StallAccount stalls_;
+};
+
+}  // namespace sheaf

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "units/shader_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sheaf {
+
+ShaderUnit::ShaderUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
+                       const CacheSpec& attribute_cache, const CacheSpec* texture_cache,
+                       const ShadedScene& scene, ClockDomain& domain,
+                       TimedOut<LineRequest>& memory, std::uint16_t attribute_requester,
+                       std::uint16_t texture_requester)
+    : MultiContextUnit(name, spec, packet_size, domain),
+      in_packets("in_packets"),
+      in_attribute_lines("in_attribute_lines"),
+      in_texture_lines("in_texture_lines"),
+      out_film("out_film"),
+      out_bundles("out_bundles"),
+      scene_(scene),
+      attributes_(attribute_cache, memory, attribute_requester),
+      attribute_fetcher_(attributes_),
+      contexts_(spec.contexts) {
+  if (texture_cache != nullptr) {
+    textures_.emplace(*texture_cache, memory, texture_requester);
+    texture_fetcher_.emplace(*textures_);
+  }
+}
+
+void ShaderUnit::end_of_elaboration() {
+  in_packets->set_consumer(inbox_);
+  in_attribute_lines->set_consumer(inbox_);
+  if (textures_) in_texture_lines->set_consumer(inbox_);
+}
+
+Cycles ShaderUnit::accept_inputs(Cycles now) {
+  const auto resume = [&](int context) { unpark(context, now); };
+  while (in_attribute_lines->has_arrived(now)) {
+    attribute_fetcher_.fill(in_attribute_lines->read(now), now, resume);
+  }
+  Cycles next = in_attribute_lines->next_arrival();
+  if (textures_) {
+    while (in_texture_lines->has_arrived(now)) {
+      texture_fetcher_->fill(in_texture_lines->read(now), now, resume);
+    }
+    next = std::min(next, in_texture_lines->next_arrival());
+  }
+  while (has_free_context() && in_packets->has_arrived(now)) {
+    accept_packet(in_packets->read(now), now);
+  }
+  return has_free_context() ? std::min(next, in_packets->next_arrival()) : next;
+}
+
+void ShaderUnit::accept_packet(RayPacket* packet, Cycles now) {
+  const int number = take_context();
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  context.packet = packet;
+  scene_.shader.shade(*packet, context.shading);
+  begin_phase(number, Phase::kIndices);
+  schedule(number, now);
+}
+
+// Skips the phases that have nothing to fetch.
+void ShaderUnit::begin_phase(int number, Phase phase) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  context.phase = phase;
+  context.issued = false;
+  context.lines.clear();
+  list_lines(context);
+  if (context.lines.empty() && phase < Phase::kCompute) {
+    begin_phase(number, static_cast<Phase>(static_cast<int>(phase) + 1));
+  }
+}
+
+void ShaderUnit::list_lines(Context& context) {
+  const MemoryMap& memory = scene_.memory;
+  auto& lines = context.lines;
+  switch (context.phase) {
+    case Phase::kIndices:
+      for (const std::uint32_t triangle : context.shading.triangles) {
+        lines.push_back(attributes_.line_of(memory.triangle_indices(triangle)));
+      }
+      break;
+    case Phase::kAttributes:
+      for (const std::uint32_t triangle : context.shading.triangles) {
+        for (const std::uint32_t vertex : scene_.scene.triangles[triangle]) {
+          lines.push_back(attributes_.line_of(memory.vertex(vertex)));
+        }
+        lines.push_back(
+            attributes_.line_of(memory.material(scene_.scene.triangle_material[triangle])));
+      }
+      break;
+    case Phase::kTexels:
+      for (const TexelAccess& texel : context.shading.texels) {
+        lines.push_back(textures_->line_of(memory.texel(texel.texture, texel.x, texel.y)));
+      }
+      break;
+    case Phase::kCompute:
+    case Phase::kOutput: return;
+  }
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+}
+
+void ShaderUnit::ready(int number, Cycles now) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  if (context.phase == Phase::kOutput) {
+    send_output(number, now);
+  } else if (!context.issued) {
+    enqueue(number);
+  } else if (context.phase == Phase::kCompute) {
+    prepare_output(context);
+    send_output(number, now);
+  } else {
+    begin_phase(number, static_cast<Phase>(static_cast<int>(context.phase) + 1));
+    enqueue(number);
+  }
+}
+
+void ShaderUnit::issue(int number, Cycles now) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  if (context.phase == Phase::kCompute) {
+    context.issued = true;
+    const bool only_post = context.shading.triangles.empty();
+    occupy(number, only_post ? 1 : slots_per_step_, 0, only_post ? slots_per_step_ : 0, now);
+    return;
+  }
+  const bool texels = context.phase == Phase::kTexels;
+  LineFetcher& fetcher = texels ? *texture_fetcher_ : attribute_fetcher_;
+  const DataKind kind = context.phase == Phase::kIndices ? DataKind::kTriangle
+                        : texels                         ? DataKind::kTexture
+                                                         : DataKind::kAttribute;
+  const auto line = [&](std::uint32_t i) { return context.lines[i]; };
+  const auto outcome =
+      fetcher.fetch(number, static_cast<std::uint32_t>(context.lines.size()), kind, line, now);
+  if (outcome.complete) {
+    context.issued = true;
+    const Cycles hit_latency = texels ? textures_->hit_latency() : attributes_.hit_latency();
+    occupy_fetch(number, hit_latency, outcome.lookups, now);
+  } else {
+    park(number);
+    occupy_missed(outcome.lookups, now);
+  }
+}
+
+void ShaderUnit::prepare_output(Context& context) {
+  context.phase = Phase::kOutput;
+  PacketShading& shading = context.shading;
+  if (!shading.contributions.empty()) {
+    context.batch = scene_.batches.acquire();
+    std::swap(*context.batch, shading.contributions);
+  }
+  if (!shading.spawned.rays.empty()) {
+    context.bundle = scene_.bundles.acquire();
+    std::swap(*context.bundle, shading.spawned);
+  }
+}
+
+void ShaderUnit::send_output(int number, Cycles now) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  if (context.batch != nullptr) {
+    if (!out_film->nb_write(context.batch, now)) {
+      out_film->notify_when_free(inbox_);
+      block(number);
+      return;
+    }
+    context.batch = nullptr;
+  }
+  std::uint64_t spawned = 0;
+  std::uint64_t reserved = 0;
+  if (context.bundle != nullptr) {
+    for (const Ray& ray : context.bundle->rays) {
+      scene_.rays.spawn(ray.tag);
+      reserved += scene_.flow.worst_case(ray.tag);
+    }
+    spawned = context.bundle->rays.size();
+    // Flow control keeps this link from ever being full.
+    out_bundles->nb_write(context.bundle, now);
+    context.bundle = nullptr;
+  }
+  unblock(number);
+  retire(context, spawned, reserved, now);
+  free_context(number);
+  inbox_.set_next(std::min(inbox_.next(), std::max(in_packets->next_arrival(), now + 1)));
+}
+
+void ShaderUnit::retire(Context& context, std::uint64_t spawned, std::uint64_t reserved_after,
+                        Cycles now) {
+  std::uint64_t reserved_before = 0;
+  const RayPacket& packet = *context.packet;
+  for (LaneMask left = packet.active; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    scene_.rays.retire(packet.tag[i], packet.hit_triangle[i] != kNoHit);
+    reserved_before += scene_.flow.worst_case(packet.tag[i]);
+  }
+  const auto retired = static_cast<std::uint64_t>(std::popcount(packet.active));
+  scene_.packets.release(context.packet);
+  context.packet = nullptr;
+  scene_.flow.replace(retired, spawned, reserved_before, reserved_after, now);
+}
+
+std::string ShaderUnit::stuck_reason() const {
+  if (num_held() == 0) return {};
+  return fmt::format("{}: {} packets held, {} waiting for memory, {} blocked by a full link", name(),
+                     num_held(), std::popcount(parked()), std::popcount(blocked()));
+}
+
+}  // namespace sheaf

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "units/traversal_unit.h"
+
+#include <fmt/format.h>
+
+namespace sheaf {
+
+void HeatMaps::add(const RayPacket& packet, const LaneCounts& lanes) {
+  for (LaneMask left = packet.active; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    const std::uint32_t pixel = packet.tag[i].pixel;
+    if (!rays.empty()) ++rays[pixel];
+    if (!node_visits.empty()) node_visits[pixel] += lanes.inner_visits[i];
+    if (!triangle_tests.empty()) triangle_tests[pixel] += lanes.triangle_tests[i];
+  }
+}
+
+TraversalUnit::TraversalUnit(const sc_core::sc_module_name& name, const UnitSpec& spec,
+                             int packet_size, const CacheSpec& cache, const TracedScene& scene,
+                             HeatMaps* heat, ClockDomain& domain, std::uint16_t number,
+                             TimedOut<LineRequest>& memory, std::uint16_t requester)
+    : MultiContextUnit(name, spec, packet_size, domain),
+      in_packets("in_packets"),
+      in_done("in_done"),
+      in_lines("in_lines"),
+      out_jobs("out_jobs"),
+      out_packets("out_packets"),
+      out_free("out_free"),
+      scene_(scene),
+      heat_(heat),
+      number_(number),
+      cache_(cache, memory, requester),
+      fetcher_(cache_),
+      contexts_(spec.contexts) {}
+
+void TraversalUnit::end_of_elaboration() {
+  in_packets->set_consumer(inbox_);
+  in_done->set_consumer(inbox_);
+  in_lines->set_consumer(inbox_);
+  jobs_.bind(out_jobs);
+  packets_.bind(out_packets);
+}
+
+Cycles TraversalUnit::accept_inputs(Cycles now) {
+  while (in_lines->has_arrived(now)) {
+    fetcher_.fill(in_lines->read(now), now, [&](int context) { unpark(context, now); });
+  }
+  while (in_done->has_arrived(now)) {
+    const int context = in_done->read(now).context;
+    contexts_[static_cast<std::size_t>(context)].phase = Phase::kAnswered;
+    schedule(context, now);
+  }
+  // The arbiter sends a packet only for a context that it knows to be free.
+  while (in_packets->has_arrived(now)) accept_packet(in_packets->read(now), now);
+  return std::min({in_lines->next_arrival(), in_done->next_arrival(), in_packets->next_arrival()});
+}
+
+void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
+  const int number = take_context();
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  context.packet = packet;
+  context.position = 0;
+  context.phase = Phase::kSetup;
+  const auto lane = static_cast<std::size_t>(std::countr_zero(packet->active));
+  const bool primary = packet->tag[lane].kind == RayKind::kPrimary;
+  TraceCounts& counts = primary ? primary_counts_ : secondary_counts_;
+  const bool per_lane = heat_ != nullptr && heat_->wanted();
+  LaneCounts lanes;
+  trace_packet(scene_.scheme, scene_.tree, scene_.triangles, *packet, &context.log,
+               per_lane ? &lanes : nullptr, counts);
+  if (per_lane) heat_->add(*packet, lanes);
+  schedule(number, now);
+}
+
+void TraversalUnit::ready(int number, Cycles now) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  switch (context.phase) {
+    case Phase::kSetup:
+    case Phase::kStep: enqueue(number); return;
+    case Phase::kSetupIssued: begin_step(number, now); return;
+    case Phase::kStepIssued:
+      if (context.log[context.position].num_tests != 0) {
+        context.phase = Phase::kJob;
+        send_job(number, now);
+        return;
+      }
+      ++context.position;
+      begin_step(number, now);
+      return;
+    case Phase::kJob: send_job(number, now); return;
+    case Phase::kAnswered:
+      ++context.position;
+      begin_step(number, now);
+      return;
+    case Phase::kDone: send_packet(number, now); return;
+  }
+}
+
+void TraversalUnit::begin_step(int number, Cycles now) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  if (context.position < context.log.size()) {
+    context.phase = Phase::kStep;
+    enqueue(number);
+  } else {
+    context.phase = Phase::kDone;
+    send_packet(number, now);
+  }
+}
+
+void TraversalUnit::issue(int number, Cycles now) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  if (context.phase == Phase::kSetup) {
+    context.phase = Phase::kSetupIssued;
+    occupy(number, slots_per_step_, 0, 0, now);
+    return;
+  }
+  const Address node = scene_.memory.node(context.log[context.position].node);
+  const auto line = [&](std::uint32_t /*i*/) { return cache_.line_of(node); };
+  const auto outcome = fetcher_.fetch(number, 1, DataKind::kNode, line, now);
+  if (outcome.complete) {
+    context.phase = Phase::kStepIssued;
+    occupy(number, slots_per_step_, cache_.hit_latency(), 0, now);
+  } else {
+    park(number);
+    occupy_missed(0, now);
+  }
+}
+
+void TraversalUnit::send_job(int number, Cycles now) {
+  const TraceStep& step = contexts_[static_cast<std::size_t>(number)].log
+                              [contexts_[static_cast<std::size_t>(number)].position];
+  const LeafJob job{step.node, step.num_tests, number_, static_cast<std::uint16_t>(number)};
+  if (jobs_.write(job, now, inbox_)) {
+    unblock(number);
+  } else {
+    block(number);
+  }
+}
+
+void TraversalUnit::send_packet(int number, Cycles now) {
+  if (!packets_.write(contexts_[static_cast<std::size_t>(number)].packet, now, inbox_)) {
+    block(number);
+    return;
+  }
+  unblock(number);
+  free_context(number);
+  out_free->nb_write({number_}, now);
+}
+
+std::string TraversalUnit::stuck_reason() const {
+  if (num_held() == 0) return {};
+  return fmt::format("{}: {} packets held, {} waiting for memory, {} blocked by a full link", name(),
+                     num_held(), std::popcount(parked()), std::popcount(blocked()));
+}
+
+}  // namespace sheaf

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kdtree/kd_tree.h"
+#include "kdtree/memory_map.h"
+#include "traversal/trace.h"
+#include "units/line_fetcher.h"
+#include "units/messages.h"
+#include "units/multi_context_unit.h"
+#include "units/round_robin.h"
+
+namespace sheaf {
+
+/// The tree as the timed units see it: what is stored where, and how packets walk it.
+struct TracedScene {
+  const KdTree& tree;
+  const std::vector<TriangleRecord>& triangles;
+  const MemoryMap& memory;
+  TraversalScheme scheme;
+};
+
+/// Per-pixel counters for heat maps; empty vectors where none is asked for.
+struct HeatMaps {
+  std::vector<std::uint32_t> rays;
+  std::vector<std::uint32_t> node_visits;
+  std::vector<std::uint32_t> triangle_tests;
+  [[nodiscard]] bool wanted() const {
+    return !rays.empty() || !node_visits.empty() || !triangle_tests.empty();
+  }
+  void add(const RayPacket& packet, const LaneCounts& lanes);
+};
+
+/// Walks packets through the kd-tree. The walk itself is computed when a packet arrives, since no
+/// hit depends on time; what it touched is then replayed step by step in time: set-up (box test
+/// and signs), a node fetch and a step for every node, and a job for the intersection units, whose
+/// answer is awaited, for every leaf with triangles.
+class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
+ public:
+  TraversalUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
+                const CacheSpec& cache, const TracedScene& scene, HeatMaps* heat,
+                ClockDomain& domain, std::uint16_t number, TimedOut<LineRequest>& memory,
+                std::uint16_t requester);
+
+  sc_core::sc_port<TimedIn<RayPacket*>> in_packets;
+  sc_core::sc_port<TimedIn<LeafDone>> in_done;
+  sc_core::sc_port<TimedIn<LineResponse>> in_lines;
+  sc_core::sc_port<TimedOut<LeafJob>, 0> out_jobs;        ///< one per intersection unit
+  sc_core::sc_port<TimedOut<RayPacket*>, 0> out_packets;  ///< one per shader unit
+  sc_core::sc_port<TimedOut<ContextFree>> out_free;
+
+  [[nodiscard]] const TraceCounts& primary_counts() const { return primary_counts_; }
+  [[nodiscard]] const TraceCounts& secondary_counts() const { return secondary_counts_; }
+  [[nodiscard]] const CacheStats& cache_stats() const { return cache_.stats(); }
+  [[nodiscard]] std::string stuck_reason() const override;
+
+ private:
+  friend class MultiContextUnit<TraversalUnit>;
+  enum class Phase : std::uint8_t { kSetup, kSetupIssued, kStep, kStepIssued, kJob, kAnswered, kDone };
+  struct Context {
+    RayPacket* packet = nullptr;
+    TraceLog log;
+    std::size_t position = 0;
+    Phase phase = Phase::kSetup;
+  };
+
+  void end_of_elaboration() override;
+  Cycles accept_inputs(Cycles now);
+  void accept_packet(RayPacket* packet, Cycles now);
+  void ready(int context, Cycles now);
+  void issue(int context, Cycles now);
+  void begin_step(int context, Cycles now);
+  void send_job(int context, Cycles now);
+  void send_packet(int context, Cycles now);
+
+  const TracedScene scene_;
+  HeatMaps* heat_;
+  const std::uint16_t number_;
+  PrivateCache cache_;
+  LineFetcher fetcher_;
+  std::vector<Context> contexts_;
+  TraceCounts primary_counts_;
+  TraceCounts secondary_counts_;
+  RoundRobin<LeafJob> jobs_;
+  RoundRobin<RayPacket*> packets_;
+};
+
+}  // namespace sheaf

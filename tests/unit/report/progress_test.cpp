@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/progress.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+namespace sheaf {
+namespace {
+
+using std::chrono::seconds;
+
+TEST(Progress, LineTellsShareTextAndTimeLeft) {
+  EXPECT_EQ(progress_line(0.5, "tiles", seconds(63), 80), " 50 %  tiles  1:03 left");
+  EXPECT_EQ(progress_line(0.25, "tiles", seconds(3600), 80), " 25 %  tiles  3:00:00 left");
+  EXPECT_EQ(progress_line(1.0, "tiles", seconds(5), 80), "100 %  tiles  0:00 left");
+}
+
+TEST(Progress, NothingDoneTellsNoTimeLeft) {
+  EXPECT_EQ(progress_line(0.0, "tiles", seconds(5), 80), "  0 %  tiles");
+}
+
+TEST(Progress, FractionsOutOfRangeAreClamped) {
+  EXPECT_EQ(progress_line(7.0, "x", seconds(5), 80), "100 %  x  0:00 left");
+  EXPECT_EQ(progress_line(-1.0, "x", seconds(5), 80), "  0 %  x");
+  EXPECT_EQ(progress_line(std::numeric_limits<double>::quiet_NaN(), "x", seconds(5), 80),
+            "  0 %  x");
+  EXPECT_EQ(progress_line(1e-300, "x", seconds(5), 80), "  0 %  x  over a day left");
+}
+
+TEST(Progress, LineIsCutToTheTerminal) {
+  EXPECT_EQ(progress_line(0.5, "tiles", seconds(63), 10), " 50 %  til");
+}
+
+TEST(Progress, ALogStaysClean) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(seconds(0));
+    progress.update(0.5, "tiles");
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// What `run` writes to standard error while that is a terminal.
+template <typename Run>
+std::string written_to_terminal(Run run) {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  EXPECT_TRUE(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+  const int inside = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+  const int usual_stderr = dup(STDERR_FILENO);
+  dup2(inside, STDERR_FILENO);
+  run();
+  dup2(usual_stderr, STDERR_FILENO);
+  std::array<char, 1000> buffer{};
+  const auto length = read(terminal, buffer.data(), buffer.size());
+  for (const int file : {terminal, inside, usual_stderr}) close(file);
+  return {buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
+}
+
+TEST(Progress, ATerminalShowsTheLineAndLosesItAtTheEnd) {
+  const std::string written = written_to_terminal([] {
+    Progress progress(seconds(0));
+    progress.update(0.0, "tiles");
+    progress.update(0.1, "too soon after the first");
+  });
+  EXPECT_EQ(written, "\r\033[K  0 %  tiles\r\033[K");
+}
+
+TEST(Progress, AShortRunShowsNothing) {
+  EXPECT_EQ(written_to_terminal([] { Progress().update(0.5, "tiles"); }), "");
+}
+
+}  // namespace
+}  // namespace sheaf

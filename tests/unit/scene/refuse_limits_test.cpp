@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "gltf_builder.h"
+#include "scene/gltf_limits.h"
+
+namespace sheaf::test {
+namespace {
+
+/// Peak memory of this process in MiB.
+long peak_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+TEST(RefuseLimits, CountsThatNoBufferBacks) {
+  GltfBuilder file = one_triangle();
+  file.root["accessors"][0].erase("bufferView");
+  file.root["accessors"][0]["count"] = gltf::kMaxZeroElements + 1;
+  expect_refused(file, {"/accessors/0", "without a bufferView"});
+  file.root["accessors"][0]["count"] = ~std::uint64_t{0};
+  expect_refused(file, {"/accessors/0", "without a bufferView"});
+  file = one_triangle();
+  file.root["accessors"][0]["count"] = ~std::uint64_t{0};
+  expect_refused(file, {"/accessors/0", "past"});
+}
+
+TEST(RefuseLimits, InstancesTimesTriangles) {
+  // 10^4 triangles in 10^4 instances from a file of 300 KB, refused before any is made.
+  constexpr std::uint64_t kMany = 10'000;
+  GltfBuilder file;
+  const int positions = file.add_accessor(std::vector<float>(9 * kMany, 0.5F), kFloat, "VEC3");
+  const int places = file.add_accessor(std::vector<std::int8_t>(4 * kMany, 1), kByte, "VEC4", true);
+  file.add_root(
+      {{"mesh", file.add_mesh({{"POSITION", positions}})},
+       {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"ROTATION", places}}}}}}}});
+  const long before = peak_mib();
+  expect_refused(file, {"/meshes/0/primitives/0", "10000 triangles in 10000 instances"});
+  EXPECT_LT(peak_mib() - before, 100);
+}
+
+TEST(RefuseLimits, InstanceCountsDoNotOverflow) {
+  GltfBuilder file = one_triangle();
+  const int places = file.add_accessor_on(-1, kFloat, "VEC3", gltf::kMaxZeroElements);
+  for (int i = 0; i < 5; ++i) {
+    file.add_root(
+        {{"mesh", 0},
+         {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"SCALE", places}}}}}}}});
+  }
+  expect_refused(file, {"/meshes/0/primitives/0", "instances exceed"});
+}
+
+TEST(RefuseLimits, DeepJson) {
+  const TempFolder folder;
+  const auto path = folder.path() / "scene.gltf";
+  constexpr std::size_t kDepth = 1'000'000;
+  write_text(path, R"({"asset":{"version":"2.0"},"x":)" + std::string(kDepth, '[') +
+                       std::string(kDepth, ']') + "}");
+  expect_refused(path, {"nested deeper"});
+}
+
+TEST(RefuseLimits, DeepNodesAreWalkedWithoutRecursion) {
+  GltfBuilder file = one_triangle();
+  constexpr int kDepth = 100'000;
+  file.root["nodes"] = json::array();
+  for (int i = 0; i < kDepth; ++i) file.root["nodes"].push_back({{"children", {i + 1}}});
+  file.root["nodes"].push_back({{"mesh", 0}});
+  EXPECT_EQ(load(file).scene.triangles.size(), 1U);
+}
+
+TEST(RefuseLimits, SmallPartsOfALargeSharedAccessorCostOnlyThemselves) {
+  // 3000 primitives that each use one triangle of the same 300,000 vertices.
+  constexpr std::uint32_t kVertices = 300'000;
+  GltfBuilder file;
+  const int positions = file.add_accessor(std::vector<float>(3 * kVertices, 1.0F), kFloat, "VEC3");
+  json primitives = json::array();
+  const int view = file.add_view(std::vector<std::uint32_t>{0, 1, kVertices - 1});
+  for (int i = 0; i < 3000; ++i) {
+    const int indices = file.add_accessor_on(view, kUnsignedInt, "SCALAR", 3);
+    primitives.push_back(
+        {{"attributes", {{"POSITION", positions}, {"NORMAL", positions}}}, {"indices", indices}});
+  }
+  file.root["meshes"].push_back({{"primitives", primitives}});
+  file.add_root({{"mesh", 0}});
+  const Scene scene = load(file).scene;
+  EXPECT_EQ(scene.triangles.size(), 3000U);
+  EXPECT_EQ(scene.positions.size(), 9000U);
+}
+
+}  // namespace
+}  // namespace sheaf::test

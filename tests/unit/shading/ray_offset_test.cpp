@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/ray_offset.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sheaf {
+namespace {
+
+TEST(RayOffset, MovesBy256UlpsAwayFromZeroAndTowardsIt) {
+  EXPECT_EQ(offset_coordinate(1.0F, 1.0F), 1.0F + 256.0F * 0x1p-23F);
+  EXPECT_EQ(offset_coordinate(1.5F, -1.0F), 1.5F - 256.0F * 0x1p-23F);
+  EXPECT_EQ(offset_coordinate(-1.0F, -1.0F), -1.0F - 256.0F * 0x1p-23F);
+  EXPECT_EQ(offset_coordinate(-1.5F, 1.0F), -1.5F + 256.0F * 0x1p-23F);
+}
+
+TEST(RayOffset, GrowsWithTheCoordinate) {
+  EXPECT_EQ(offset_coordinate(1e6F, 1.0F), 1e6F + 256.0F * 0.0625F);
+}
+
+TEST(RayOffset, TakesAFixedStepNearZero) {
+  EXPECT_EQ(offset_coordinate(0.0F, 1.0F), 0x1p-16F);
+  EXPECT_EQ(offset_coordinate(0.03F, -0.5F), 0.03F - 0x1p-17F);
+  EXPECT_EQ(offset_coordinate(1.0F / 32.0F, 1.0F), 1.0F / 32.0F + 256.0F * 0x1p-28F);
+}
+
+TEST(RayOffset, LeavesCoordinatesAcrossTheNormalAlone) {
+  EXPECT_EQ(offset_origin({5.0F, -7.0F, 0.01F}, {1.0F, 0.0F, 0.0F}),
+            Vec3(offset_coordinate(5.0F, 1.0F), -7.0F, 0.01F));
+}
+
+TEST(RayOffset, NeverLeavesTheFloats) {
+  const float max = std::numeric_limits<float>::max();
+  EXPECT_TRUE(std::isfinite(offset_coordinate(max, 1.0F)));
+  EXPECT_TRUE(std::isfinite(offset_coordinate(-max, -1.0F)));
+  EXPECT_LT(offset_coordinate(max, -1.0F), max);
+}
+
+}  // namespace
+}  // namespace sheaf
