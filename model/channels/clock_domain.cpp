@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channels/clock_domain.h"
 
-#include <cmath>
-#include <stdexcept>
 
 namespace sheaf {
 namespace {
@@ -21,7 +19,7 @@ ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_
 }
 
 std::size_t ClockDomain::add(Agent& agent) {
-  if (agents_.size() == kMaxAgents) throw std::length_error("too many agents in a clock domain");
+  if (agents_.size() % kGroup == 0) groups_.emplace_back();
   agents_.push_back(&agent);
   return agents_.size() - 1;
 }
@@ -40,15 +38,21 @@ Cycles ClockDomain::next_foreign_cycle() const {
   return cycle_at(sc_core::sc_time_to_pending_activity());
 }
 
+std::size_t ClockDomain::pop(Cycles time) {
+  std::size_t group = 0;
+  while (groups_[group].peek() != time) ++group;
+  return group * kGroup + groups_[group].pop(time);
+}
+
 void ClockDomain::run_until(Cycles limit) {
   limit_ = limit;
   for (;;) {
-    const Cycles next = wheel_.peek();
+    const Cycles next = next_wake();
     if (next >= limit_ || next >= end_) return;
     now_ = next;
-    const std::size_t agent = wheel_.pop(next);
+    const std::size_t agent = pop(next);
     const Cycles again = agents_[agent]->wake(next);
-    if (again != kNever) wheel_.schedule(agent, again);
+    if (again != kNever) schedule(agent, again);
     if (stopped_) return;
     if (++num_wakes_ % kMonitorInterval == 0 && monitor_ && monitor_(now_)) {
       stopped_ = true;
@@ -72,7 +76,7 @@ void ClockDomain::advance() {
     run_until(foreign < end_ ? foreign : end_);
     if (stopped_) return finish();
     if (limit_ == 0) continue;  // the kernel was touched: ask it again how far to go
-    const Cycles next = wheel_.peek();
+    const Cycles next = next_wake();
     if (next == kNever && foreign == kNever) {
       ran_dry_ = true;
       return finish();

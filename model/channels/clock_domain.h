@@ -36,20 +36,20 @@ class Agent {
 /// to do, not once for every hand-over.
 class ClockDomain : public sc_core::sc_module {
  public:
-  /// `period`: one clock cycle. At most kMaxAgents agents.
+  /// `period`: one clock cycle.
   ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period);
-
-  static constexpr std::size_t kMaxAgents = 512;
 
   /// Registers an agent; its index is its rank among those due in the same cycle.
   std::size_t add(Agent& agent);
 
   /// Wakes `agent` at `time` or earlier.
-  void schedule(std::size_t agent, Cycles time) { wheel_.schedule(agent, time); }
+  void schedule(std::size_t agent, Cycles time) {
+    groups_[agent / kGroup].schedule(agent % kGroup, time);
+  }
 
   /// The running agent may act on its own at any cycle below this one.
   [[nodiscard]] Cycles horizon() {
-    const Cycles next = wheel_.peek();
+    const Cycles next = next_wake();
     return next < limit_ ? next : limit_;
   }
 
@@ -83,12 +83,23 @@ class ClockDomain : public sc_core::sc_module {
 
  private:
   void advance();
+  [[nodiscard]] Cycles next_wake() {
+    Cycles next = kNever;
+    for (TimingWheel& group : groups_) {
+      const Cycles time = group.peek();
+      if (time < next) next = time;
+    }
+    return next;
+  }
+  std::size_t pop(Cycles time);
   void run_until(Cycles limit);
   void finish();
   [[nodiscard]] Cycles next_foreign_cycle() const;
 
   const sc_core::sc_time period_;
-  TimingWheel<kMaxAgents / 64> wheel_;
+  // A calendar for every 64 agents: machines of the usual size have one, which stays small.
+  static constexpr std::size_t kGroup = TimingWheel::kMaxAgents;
+  std::vector<TimingWheel> groups_;
   std::vector<Agent*> agents_;
   std::function<bool(Cycles)> monitor_;
   Cycles now_ = 0;

@@ -20,6 +20,9 @@ class TimedOut : public virtual sc_core::sc_interface {
   [[nodiscard]] virtual std::size_t num_free(Cycles now) const = 0;
   /// False, and nothing happens, if no slot is free.
   virtual bool nb_write(const T& value, Cycles now) = 0;
+  /// A write that will happen at `ready`, not before what has been written at earlier times and
+  /// before what has been at later ones. The channel must have room.
+  virtual void write_ahead(const T& value, Cycles ready) = 0;
   /// Wakes `producer` once a slot becomes free after a refused write.
   virtual void notify_when_free(Inbox& producer) = 0;
 };
@@ -28,12 +31,13 @@ class TimedOut : public virtual sc_core::sc_interface {
 template <typename T>
 class TimedIn : public virtual sc_core::sc_interface {
  public:
+  /// Arrival of the oldest value, or kNever. The reference stays valid, so that a consumer can look
+  /// without a call.
+  [[nodiscard]] virtual const Cycles& next_arrival() const = 0;
   /// True if the oldest value has arrived by `now`.
-  [[nodiscard]] virtual bool has_arrived(Cycles now) const = 0;
+  [[nodiscard]] bool has_arrived(Cycles now) const { return next_arrival() <= now; }
   /// Takes the oldest value; has_arrived() must hold.
   virtual T read(Cycles now) = 0;
-  /// Arrival of the oldest value, or kNever.
-  [[nodiscard]] virtual Cycles next_arrival() const = 0;
   /// The inbox that is told of every arrival.
   virtual void set_consumer(Inbox& consumer) = 0;
 };
@@ -65,16 +69,23 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
 
   bool nb_write(const T& value, Cycles now) override {
     if (num_free(now) == 0) return false;
-    Cycles arrival = now + spec_.latency;
-    if (arrival < next_arrival_slot_) arrival = next_arrival_slot_;
-    next_arrival_slot_ = arrival + spec_.interval;
+    write_ahead(value, now);
+    return true;
+  }
+
+  void write_ahead(const T& value, Cycles ready) override {
     if (size_ == ring_.size()) grow();
-    ring_[(head_ + size_) & (ring_.size() - 1)] = {arrival, value};
-    ++size_;
+    std::size_t position = size_++;
+    for (; position > 0 && at(position - 1).ready > ready; --position) {
+      at(position) = at(position - 1);
+    }
+    at(position) = {ready, value};
     ++num_written_;
     if (size_ > max_size_) max_size_ = size_;
-    if (size_ == 1) consumer_->expect(arrival);
-    return true;
+    if (position == 0) {
+      update_head();
+      consumer_->expect(next_arrival_);
+    }
   }
 
   void notify_when_free(Inbox& producer) override {
@@ -84,21 +95,20 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     waiting_.push_back(&producer);
   }
 
-  [[nodiscard]] bool has_arrived(Cycles now) const override {
-    return size_ != 0 && ring_[head_].arrival <= now;
-  }
-  [[nodiscard]] Cycles next_arrival() const override {
-    return size_ == 0 ? kNever : ring_[head_].arrival;
-  }
+  [[nodiscard]] const Cycles& next_arrival() const override { return next_arrival_; }
 
   T read(Cycles now) override {
     const T value = ring_[head_].value;
+    last_arrival_ = next_arrival_;
     head_ = (head_ + 1) & (ring_.size() - 1);
     --size_;
+    update_head();
     read_in_cycle_ = last_read_ == now ? read_in_cycle_ + 1 : 1;
     last_read_ = now;
-    for (Inbox* producer : waiting_) producer->nudge(now + 1);
-    waiting_.clear();
+    if (!waiting_.empty()) {
+      for (Inbox* producer : waiting_) producer->nudge(now + 1);
+      waiting_.clear();
+    }
     return value;
   }
 
@@ -111,14 +121,26 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
 
  private:
   struct Entry {
-    Cycles arrival = 0;
+    Cycles ready = 0;  ///< time of the write
     T value{};
   };
   static constexpr std::size_t kFirstSlots = 16;
 
+  [[nodiscard]] Entry& at(std::size_t position) {
+    return ring_[(head_ + position) & (ring_.size() - 1)];
+  }
+  void update_head() {
+    next_arrival_ = kNever;
+    if (size_ == 0) return;
+    next_arrival_ = ring_[head_].ready + spec_.latency;
+    if (last_arrival_ != kNever && next_arrival_ < last_arrival_ + spec_.interval) {
+      next_arrival_ = last_arrival_ + spec_.interval;
+    }
+  }
+
   void grow() {
     std::vector<Entry> larger(ring_.size() * 2);
-    for (std::size_t i = 0; i < size_; ++i) larger[i] = ring_[(head_ + i) & (ring_.size() - 1)];
+    for (std::size_t i = 0; i < size_; ++i) larger[i] = at(i);
     ring_.swap(larger);
     head_ = 0;
   }
@@ -132,7 +154,8 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   std::size_t max_size_ = 0;
   std::size_t read_in_cycle_ = 0;
   Cycles last_read_ = kNever;
-  Cycles next_arrival_slot_ = 0;
+  Cycles next_arrival_ = kNever;  ///< of the oldest value
+  Cycles last_arrival_ = kNever;  ///< of the value read last
   std::uint64_t num_written_ = 0;
 };
 

@@ -12,16 +12,15 @@
 
 namespace sheaf {
 
-/// A calendar of at most 64 × kWords agents, each with at most one pending time. The next kSlots
+/// A calendar of at most 64 agents, each with at most one pending time. The next kSlots
 /// cycles have a slot each, a bit set of agents; later times wait in a list that is looked at when
 /// the near slots have run out. Scheduling and taking out cost a few nanoseconds.
 ///
 /// Agents due in the same cycle come out in ascending order.
-template <std::size_t kWords>
 class TimingWheel {
  public:
   static constexpr std::size_t kSlots = 256;
-  static constexpr std::size_t kMaxAgents = kWords * 64;
+  static constexpr std::size_t kMaxAgents = 64;
 
   TimingWheel() { due_.fill(kNever); }
 
@@ -56,25 +55,20 @@ class TimingWheel {
   /// Removes and returns the lowest agent due at `time`, which must be what peek() returned.
   std::size_t pop(Cycles time) {
     base_ = time;
-    auto& slot = slots_[time % kSlots];
-    for (std::size_t w = 0;; ++w) {
-      if (slot[w] == 0) continue;
-      const std::size_t agent = w * 64 + static_cast<std::size_t>(std::countr_zero(slot[w]));
-      slot[w] &= slot[w] - 1;
-      due_[agent] = kNever;
-      if (is_empty(slot)) clear_occupied(time % kSlots);
-      return agent;
-    }
+    std::uint64_t& slot = slots_[time % kSlots];
+    const auto agent = static_cast<std::size_t>(std::countr_zero(slot));
+    slot &= slot - 1;
+    due_[agent] = kNever;
+    if (slot == 0) clear_occupied(time % kSlots);
+    return agent;
   }
 
   [[nodiscard]] Cycles due(std::size_t agent) const { return due_[agent]; }
 
  private:
-  using Slot = std::array<std::uint64_t, kWords>;
-
   void insert(std::size_t agent, Cycles time) {
     if (time - base_ < kSlots) {
-      slots_[time % kSlots][agent / 64] |= std::uint64_t{1} << (agent % 64);
+      slots_[time % kSlots] |= std::uint64_t{1} << agent;
       occupied_[time % kSlots / 64] |= std::uint64_t{1} << (time % 64);
     } else {
       far_.push_back(agent);
@@ -84,11 +78,11 @@ class TimingWheel {
 
   void remove(std::size_t agent) {
     const Cycles time = due_[agent];
-    auto& slot = slots_[time % kSlots];
-    const std::uint64_t bit = std::uint64_t{1} << (agent % 64);
-    if (time - base_ < kSlots && (slot[agent / 64] & bit) != 0) {
-      slot[agent / 64] &= ~bit;
-      if (is_empty(slot)) clear_occupied(time % kSlots);
+    std::uint64_t& slot = slots_[time % kSlots];
+    const std::uint64_t bit = std::uint64_t{1} << agent;
+    if (time - base_ < kSlots && (slot & bit) != 0) {
+      slot &= ~bit;
+      if (slot == 0) clear_occupied(time % kSlots);
       return;
     }
     std::erase(far_, agent);
@@ -125,11 +119,6 @@ class TimingWheel {
     return kNever;
   }
 
-  [[nodiscard]] static bool is_empty(const Slot& slot) {
-    std::uint64_t any = 0;
-    for (const std::uint64_t word : slot) any |= word;
-    return any == 0;
-  }
   void clear_occupied(std::size_t slot) {
     occupied_[slot / 64] &= ~(std::uint64_t{1} << (slot % 64));
   }
@@ -137,7 +126,7 @@ class TimingWheel {
   Cycles base_ = 0;             ///< no pending time is earlier
   Cycles far_min_ = kNever;
   std::array<std::uint64_t, kSlots / 64> occupied_{};
-  std::array<Slot, kSlots> slots_{};
+  std::array<std::uint64_t, kSlots> slots_{};
   std::array<Cycles, kMaxAgents> due_{};
   std::vector<std::size_t> far_;
 };

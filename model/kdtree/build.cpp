@@ -95,10 +95,6 @@ KdTree build_kd_tree(std::span<const Vec3> positions,
   KdTree tree;
   std::size_t num_hittable = 0;
   tree.bounds = measure(mesh, num_hittable);
-  // More than most trees need. What stays unused is never touched and so takes no memory, while
-  // growing step by step would hold two copies of the tree at once.
-  tree.nodes.reserve(8 * num_hittable + 1);
-  tree.leaf_triangles.reserve(8 * num_hittable);
   const int max_depth = depth_limit(options, num_hittable);
   const std::size_t room = node_events_room(num_hittable);
   if (options.threads > 1) {
@@ -106,6 +102,10 @@ KdTree build_kd_tree(std::span<const Vec3> positions,
     const PendingNode root = make_root(mesh, tree.bounds, num_hittable, memory.get());
     build_in_parallel(mesh, costs, max_depth, options.threads, root, std::move(memory), tree);
   } else {
+    // More than most trees need. What stays unused is never touched and so takes no memory, while
+    // growing step by step would hold two copies of the tree at once.
+    tree.nodes.reserve(12 * num_hittable + 1);
+    tree.leaf_triangles.reserve(12 * num_hittable);
     SubtreeBuilder builder(mesh, costs, max_depth);
     SplitEvent* const memory = builder.root_arena().allocate(room);
     builder.build(make_root(mesh, tree.bounds, num_hittable, memory), tree);

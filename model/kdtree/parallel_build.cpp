@@ -93,6 +93,7 @@ void do_job(Job& job, SubtreeBuilder& builder, std::size_t max_subtree) {
 }
 
 void append_subtree(const KdTree& subtree, KdTree& tree) {
+  check_room(tree, subtree.nodes.size(), subtree.leaf_triangles.size());
   const auto node_offset = static_cast<std::uint32_t>(tree.nodes.size());
   const auto list_offset = static_cast<std::uint32_t>(tree.leaf_triangles.size());
   for (const KdNode& node : subtree.nodes) {
@@ -103,6 +104,18 @@ void append_subtree(const KdTree& subtree, KdTree& tree) {
   tree.leaf_triangles.insert(tree.leaf_triangles.end(), subtree.leaf_triangles.begin(),
                              subtree.leaf_triangles.end());
   tree.depth = std::max(tree.depth, subtree.depth);
+}
+
+// Counts the nodes and leaf entries that join() will append.
+void count_output(const Job& job, std::size_t& num_nodes, std::size_t& num_entries) {
+  if (job.plane.found()) {
+    ++num_nodes;
+    count_output(*job.left, num_nodes, num_entries);
+    count_output(*job.right, num_nodes, num_entries);
+  } else {
+    num_nodes += job.subtree.nodes.size();
+    num_entries += job.subtree.leaf_triangles.size();
+  }
 }
 
 // Appends what the job has built and frees it.
@@ -146,6 +159,11 @@ void build_in_parallel(const MeshView& mesh, const SahCosts& costs, int max_dept
     work();
   }
   queue.rethrow_failure();
+  std::size_t num_nodes = 0;
+  std::size_t num_entries = 0;
+  count_output(*root_job, num_nodes, num_entries);
+  tree.nodes.reserve(num_nodes);
+  tree.leaf_triangles.reserve(num_entries);
   join(std::move(root_job), tree);
 }
 

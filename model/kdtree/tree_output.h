@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -14,6 +15,8 @@ namespace sheaf {
 
 // Nodes are appended depth first: an inner node, its left subtree, its right subtree.
 
+/// Throws Error (kScene) if the tree cannot take as many more nodes and leaf entries.
+void check_room(const KdTree& tree, std::size_t num_nodes, std::size_t num_entries);
 /// Appends an inner node whose right child is not known yet; returns its index.
 std::uint32_t append_inner(KdTree& tree, const SplitPlane& plane);
 /// Completes an inner node: its right child is the next node to be appended.

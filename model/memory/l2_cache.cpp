@@ -33,13 +33,14 @@ L2Cache::L2Cache(const sc_core::sc_module_name& name, const L2Spec& spec, ClockD
       payloads_(kMaxLine) {
   inbox_.bind(domain, agent_);
   for (std::uint32_t bank = 0; bank < spec.banks; ++bank) {
-    banks_.push_back({CacheArray(sets_per_bank(spec), spec.ways), {}, {}, 0, false});
+    banks_.push_back({CacheArray(sets_per_bank(spec), spec.ways), {}, {}, 0, 0, false});
   }
   to_dram.register_nb_transport_bw(this, &L2Cache::nb_transport_bw);
 }
 
 void L2Cache::end_of_elaboration() {
   in_requests->set_consumer(inbox_);
+  next_request_ = &in_requests->next_arrival();
   for (int i = 0; i < out_responses.size(); ++i) responses_.push_back(out_responses[i]);
 }
 
@@ -58,69 +59,78 @@ void L2Cache::act(Cycles now) {
     fills_.pop();
     fill(address, now);
   }
-  while (in_requests->has_arrived(now)) accept(in_requests->read(now), now);
+  // Requests that have waited come before those that arrive now.
+  if (num_queued_ != 0) serve_queues(now);
+  while (*next_request_ <= now) accept(in_requests->read(now), now);
+}
+
+void L2Cache::serve_queues(Cycles now) {
   for (Bank& bank : banks_) {
-    if (!bank.queue.empty() && !bank.blocked && bank.free_at <= now) serve(bank, now);
-  }
-  while (!checked_.empty() && checked_.front().at <= now) {
-    finish_check(checked_.front());
-    checked_.pop_front();
+    if (bank.queue.empty() || bank.blocked || bank.free_at > now) continue;
+    if (serve(bank, bank.queue.front(), now)) {
+      bank.queue.pop_front();
+      --num_queued_;
+    }
   }
 }
 
 Cycles L2Cache::next_event() const {
-  Cycles next = in_requests->next_arrival();
+  Cycles next = *next_request_;
   if (!fills_.empty()) next = std::min(next, fills_.top().at);
-  if (!checked_.empty()) next = std::min(next, checked_.front().at);
+  if (num_queued_ == 0) return next;
   for (const Bank& bank : banks_) {
     if (!bank.queue.empty() && !bank.blocked) next = std::min(next, bank.free_at);
   }
   return next;
 }
 
-void L2Cache::accept(const LineRequest& request, Cycles now) {
-  if (request.write) {
-    stats_.bytes_received += request.bytes;
-  } else {
-    stats_.bytes_requested += request.bytes;
-  }
-  bank_of(line_of(request.address)).queue.push_back({request, now});
+void L2Cache::accept(const LineRequest& what, Cycles now) {
+  (what.write ? stats_.bytes_received : stats_.bytes_requested) += what.bytes;
+  Bank& bank = bank_of(line_of(what.address));
+  const Request request{what, now};
+  if (bank.queue.empty() && bank.free_at <= now && serve(bank, request, now)) return;
+  bank.queue.push_back(request);
+  ++num_queued_;
 }
 
-void L2Cache::serve(Bank& bank, Cycles now) {
-  const Request request = bank.queue.front();
+// False if the request has to wait for an MSHR.
+bool L2Cache::serve(Bank& bank, const Request& request, Cycles now) {
   if (request.what.write) {
     serve_write(bank, request.what, now);
   } else if (!serve_read(bank, request.what, now)) {
     ++stats_.num_mshr_stalls;
     bank.blocked = true;
-    return;
+    return false;
   }
   ++stats_.num_accesses;
-  ++kind_stats_[static_cast<std::size_t>(request.what.kind)].num_accesses;
+  ++kind_of(request.what).num_accesses;
   stats_.bank_wait_cycles += now - request.arrival;
-  bank.queue.pop_front();
   bank.free_at = now + 1;
+  return true;
 }
 
 bool L2Cache::serve_read(Bank& bank, const LineRequest& request, Cycles now) {
   const std::uint64_t line = line_of(request.address);
   if (spec_.mode == CacheMode::kPerfect || bank.array.touch(index_in_bank(line))) {
     ++stats_.num_hits;
-    ++kind_stats_[static_cast<std::size_t>(request.kind)].num_hits;
-    checked_.push_back({now + spec_.hit_latency, request, true});
+    ++kind_of(request).num_hits;
+    responses_[request.requester]->write_ahead({request.address}, now + spec_.hit_latency);
     return true;
   }
-  for (Mshr& mshr : bank.mshrs) {
-    if (mshr.line != line) continue;
+  for (std::size_t i = 0; i < bank.num_mshrs; ++i) {
+    if (bank.mshrs[i].line != line) continue;
     ++stats_.num_merges;
-    mshr.waiters.push_back(request);
+    bank.mshrs[i].waiters.push_back(request);
     return true;
   }
-  if (bank.mshrs.size() == spec_.mshrs) return false;
+  if (bank.num_mshrs == spec_.mshrs) return false;
   ++stats_.num_misses;
-  bank.mshrs.push_back({line, {request}});
-  checked_.push_back({now + spec_.hit_latency, request, false});
+  kind_of(request).bytes_read += spec_.line;
+  if (bank.num_mshrs == bank.mshrs.size()) bank.mshrs.emplace_back();
+  Mshr& mshr = bank.mshrs[bank.num_mshrs++];
+  mshr.line = line;
+  mshr.waiters.assign(1, request);
+  send_to_dram(line << line_shift_, spec_.line, false, now + spec_.hit_latency);
   return true;
 }
 
@@ -128,37 +138,24 @@ void L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
   const std::uint64_t index = index_in_bank(line_of(request.address));
   if (spec_.mode == CacheMode::kPerfect || bank.array.touch(index)) {
     ++stats_.num_hits;
-    ++kind_stats_[static_cast<std::size_t>(request.kind)].num_hits;
+    ++kind_of(request).num_hits;
     if (spec_.mode == CacheMode::kNormal) bank.array.mark_dirty(index);
     return;
   }
   ++stats_.num_misses;
-  checked_.push_back({now + spec_.hit_latency, request, false});
-}
-
-void L2Cache::finish_check(const Checked& checked) {
-  L2KindStats& kind = kind_stats_[static_cast<std::size_t>(checked.what.kind)];
-  if (checked.hit) {
-    responses_[checked.what.requester]->nb_write({checked.what.address}, checked.at);
-  } else if (checked.what.write) {
-    kind.bytes_written += checked.what.bytes;
-    send_to_dram(checked.what.address, checked.what.bytes, true, checked.at);
-  } else {
-    kind.bytes_read += spec_.line;
-    send_to_dram(line_of(checked.what.address) << line_shift_, spec_.line, false, checked.at);
-  }
+  kind_of(request).bytes_written += request.bytes;
+  send_to_dram(request.address, request.bytes, true, now + spec_.hit_latency);
 }
 
 void L2Cache::fill(Address address, Cycles now) {
   const std::uint64_t line = line_of(address);
   Bank& bank = bank_of(line);
-  const auto mshr = std::find_if(bank.mshrs.begin(), bank.mshrs.end(),
-                                 [&](const Mshr& entry) { return entry.line == line; });
-  for (const LineRequest& waiter : mshr->waiters) {
-    responses_[waiter.requester]->nb_write({waiter.address}, now);
+  std::size_t i = 0;
+  while (bank.mshrs[i].line != line) ++i;
+  for (const LineRequest& waiter : bank.mshrs[i].waiters) {
+    responses_[waiter.requester]->write_ahead({waiter.address}, now);
   }
-  std::swap(*mshr, bank.mshrs.back());
-  bank.mshrs.pop_back();
+  std::swap(bank.mshrs[i], bank.mshrs[--bank.num_mshrs]);
   if (bank.blocked) {
     bank.blocked = false;
     bank.free_at = std::max(bank.free_at, now);
@@ -167,15 +164,16 @@ void L2Cache::fill(Address address, Cycles now) {
   if (!victim.valid || !victim.dirty) return;
   ++stats_.num_writebacks;
   const std::uint64_t bank_number = line & (banks_.size() - 1);
-  send_to_dram(((victim.line << bank_shift_) | bank_number) << line_shift_, spec_.line, true, now);
+  send_to_dram(((victim.line << bank_shift_) | bank_number) << line_shift_, spec_.line, true,
+               now + spec_.hit_latency);
 }
 
-void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles now) {
+void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles at) {
   (write ? stats_.bytes_written : stats_.bytes_read) += bytes;
   tlm::tlm_generic_payload* payload =
       payloads_.acquire(address, static_cast<std::uint32_t>(bytes), write);
   tlm::tlm_phase phase = tlm::BEGIN_REQ;
-  sc_core::sc_time delay = domain_.offset(now);
+  sc_core::sc_time delay = domain_.offset(at);
   const tlm::tlm_sync_enum status = to_dram->nb_transport_fw(*payload, phase, delay);
   if (status == tlm::TLM_COMPLETED) {
     dram_done(*payload, domain_.cycle_at(delay));
@@ -202,10 +200,9 @@ tlm::tlm_sync_enum L2Cache::nb_transport_bw(tlm::tlm_generic_payload& payload,
 
 bool L2Cache::is_idle() const {
   const bool banks_idle = std::all_of(banks_.begin(), banks_.end(), [](const Bank& bank) {
-    return bank.queue.empty() && bank.mshrs.empty();
+    return bank.queue.empty() && bank.num_mshrs == 0;
   });
-  return banks_idle && checked_.empty() && fills_.empty() &&
-         in_requests->next_arrival() == kNever;
+  return banks_idle && fills_.empty() && *next_request_ == kNever;
 }
 
 std::string L2Cache::stuck_reason() const {
@@ -213,7 +210,7 @@ std::string L2Cache::stuck_reason() const {
   std::size_t outstanding = 0;
   for (const Bank& bank : banks_) {
     queued += bank.queue.size();
-    outstanding += bank.mshrs.size();
+    outstanding += bank.num_mshrs;
   }
   if (queued + outstanding == 0) return {};
   return fmt::format("{}: {} requests queued, {} lines awaited from DRAM", name(), queued,

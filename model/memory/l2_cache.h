@@ -48,7 +48,8 @@ SHEAF_STATS(L2KindStats, SHEAF_L2_KIND_COUNTERS);
 /// DRAM behind a TLM-2.0 socket (AT, non-blocking).
 ///
 /// A bank takes one request a cycle in order of arrival (of the same cycle: in order of the
-/// requesters' rank). The tag check takes hit_latency; a hit answers then, a miss asks DRAM then.
+/// requesters' rank). The tag check takes hit_latency; a hit answers then, a miss asks DRAM then,
+/// and a line that a fill pushes out is sent to DRAM hit_latency after the fill.
 /// A read miss with no free MSHR holds its bank up. A written-back line that is there becomes
 /// dirty; one that is not goes on to DRAM without taking a place. `absent`: no storage, reads of
 /// the same line still share an MSHR; `perfect`: every request hits.
@@ -83,15 +84,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   struct Bank {
     CacheArray array;
     std::deque<Request> queue;
-    std::vector<Mshr> mshrs;
+    std::vector<Mshr> mshrs;       ///< the first num_mshrs are in use
+    std::size_t num_mshrs = 0;
     Cycles free_at = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
-  };
-  /// What becomes due hit_latency after a bank's tag check: an answer, or a request to DRAM.
-  struct Checked {
-    Cycles at = 0;
-    LineRequest what;
-    bool hit = false;
   };
   /// A line on its way from DRAM.
   struct Fill {
@@ -105,15 +101,18 @@ class L2Cache final : public sc_core::sc_module, public Agent {
 
   void end_of_elaboration() override;
   void accept(const LineRequest& request, Cycles now);
-  void serve(Bank& bank, Cycles now);
+  bool serve(Bank& bank, const Request& request, Cycles now);
+  void serve_queues(Cycles now);
   bool serve_read(Bank& bank, const LineRequest& request, Cycles now);
   void serve_write(Bank& bank, const LineRequest& request, Cycles now);
-  void finish_check(const Checked& checked);
-  void send_to_dram(Address address, Bytes bytes, bool write, Cycles now);
+  void send_to_dram(Address address, Bytes bytes, bool write, Cycles at);
   void dram_done(const tlm::tlm_generic_payload& payload, Cycles at);
   void fill(Address address, Cycles now);
   void act(Cycles now);
   [[nodiscard]] Cycles next_event() const;
+  L2KindStats& kind_of(const LineRequest& request) {
+    return kind_stats_[static_cast<std::size_t>(request.kind)];
+  }
   [[nodiscard]] std::uint64_t line_of(Address address) const { return address >> line_shift_; }
   [[nodiscard]] Bank& bank_of(std::uint64_t line) { return banks_[line & (banks_.size() - 1)]; }
   [[nodiscard]] std::uint64_t index_in_bank(std::uint64_t line) const {
@@ -129,11 +128,12 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   unsigned line_shift_;
   unsigned bank_shift_;
   std::vector<Bank> banks_;
+  std::size_t num_queued_ = 0;       ///< requests in all banks' queues
 
-  std::deque<Checked> checked_;  ///< in order of time by construction
   std::priority_queue<Fill, std::vector<Fill>, std::greater<>> fills_;
   std::uint64_t num_fills_ = 0;
   std::vector<TimedOut<LineResponse>*> responses_;
+  const Cycles* next_request_ = nullptr;
 
   PayloadPool payloads_;
   L2Stats stats_;

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <exception>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -115,8 +117,15 @@ void parse_model(tinygltf::Model& model, json root) {
   std::string error;
   std::string warning;
   tinygltf::TinyGLTF parser;
-  const bool parsed = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
-                                                 static_cast<unsigned>(text.size()), "");
+  bool parsed = false;
+  try {
+    parsed = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                        static_cast<unsigned>(text.size()), "");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
   if (!parsed || !error.empty()) refuse(place_of_failure(model, listed), error);
 }
 

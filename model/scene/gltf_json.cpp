@@ -29,6 +29,11 @@ constexpr std::array<std::string_view, 17> kIndexKeys{
     "indices", "light",      "material", "mesh",     "mode",          "nodes",
     "sampler", "scene",      "skin",     "source",   "texCoord"};
 
+/// Members that count bytes or elements in up to 64 bits, or that tinygltf wants whole.
+constexpr std::array<std::string_view, 9> kSizeKeys{"byteLength", "byteOffset", "byteStride",
+                                                    "count",      "target",     "wrapS",
+                                                    "wrapT",      "magFilter",  "minFilter"};
+
 template <typename List>
 bool contains(const List& list, std::string_view key) {
   return std::find(list.begin(), list.end(), key) != list.end();
@@ -68,6 +73,15 @@ bool is_index(const Place& place) {
   return is_attribute || contains(kIndexKeys, place.key.empty() ? place.parent->key : place.key);
 }
 
+void clean_number(json& number, const Place& place) {
+  if (is_index(place)) {
+    check_index(number, place);
+  } else if (number.is_number_integer() && !contains(kSizeKeys, place.key)) {
+    // A quantity that happens to be whole; tinygltf keeps integers of extensions in 32 bits.
+    number = number.get<double>();
+  }
+}
+
 /// Checks a value and all in it, and drops from it what nobody reads. Recursion is as deep as
 /// kMaxJsonDepth at most.
 void clean(json& value, const Place& place) {
@@ -85,8 +99,8 @@ void clean(json& value, const Place& place) {
     }
   } else if (value.is_array()) {
     for (std::size_t i = 0; i < value.size(); ++i) clean(value[i], place.element(i));
-  } else if (value.is_number() && place.parent != nullptr && is_index(place)) {
-    check_index(value, place);
+  } else if (value.is_number() && place.parent != nullptr) {
+    clean_number(value, place);
   }
 }
 

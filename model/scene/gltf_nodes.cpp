@@ -154,6 +154,11 @@ class Walk {
     const dmat4 world = next.parent * local_transform(node, place);
     if (node.mesh >= 0) {
       placed_.meshes.push_back({node.mesh, world, read_instances(document_, node, place)});
+      // Bounds what the views of many instancing nodes hold, before triangles are counted.
+      num_instances_ += placed_.meshes.back().instances.count;
+      if (num_instances_ > kMaxTriangles) {
+        refuse(place, fmt::format("the instances exceed the scene's limit of {}", kMaxTriangles));
+      }
     }
     if (node.camera >= 0) placed_.cameras.push_back({node.camera, next.node, world});
     if (const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual")) {
@@ -167,6 +172,7 @@ class Walk {
   std::vector<bool> reached_;
   std::vector<Pending> pending_;
   PlacedNodes placed_;
+  std::uint64_t num_instances_ = 0;
 };
 
 }  // namespace

@@ -101,16 +101,14 @@ GeometryPlan plan_geometry(Document& document, const PlacedNodes& placed) {
   for (const PlacedMesh& mesh : placed.meshes) {
     const auto index = static_cast<std::size_t>(mesh.mesh);
     if (index >= num_meshes) refuse("/nodes", fmt::format("there is no mesh {}", mesh.mesh));
-    if (__builtin_add_overflow(instances[index], mesh.instances.count, &instances[index])) {
-      refuse("/nodes", fmt::format("too many instances of mesh {}", mesh.mesh));
-    }
+    instances[index] += mesh.instances.count;
     plan.placements[index].push_back(&mesh);
   }
   Planner planner(document, plan);
   for (std::size_t i = 0; i < num_meshes; ++i) {
     if (instances[i] > 0) planner.add_mesh(static_cast<int>(i), instances[i]);
   }
-  if (plan.triangles == 0) refuse("", "the scene has no triangles");
+  if (plan.triangles == 0) refuse("", "the scene has no triangles; points and lines are not shown");
   return plan;
 }
 

@@ -37,16 +37,31 @@ class Recorder {
     counts_.packet_triangle_tests += num_tests;
     log(node, num_tests);
   }
-  [[nodiscard]] const TraceCounts& counts() const { return counts_; }
-
- private:
-  static std::uint64_t count(LaneMask lanes) {
-    return static_cast<std::uint64_t>(std::popcount(lanes));
+  /// What one lane touched alone, by numbers.
+  void lane_walked(std::size_t lane, std::uint32_t inner, std::uint32_t leaves,
+                   std::uint32_t triangles) {
+    counts_.packet_inner_visits += inner;
+    counts_.lane_inner_visits += inner;
+    counts_.packet_leaf_visits += leaves;
+    counts_.lane_leaf_visits += leaves;
+    counts_.packet_triangle_tests += triangles;
+    counts_.lane_triangle_tests += triangles;
+    if constexpr (kRecord) {
+      if (lanes_ == nullptr) return;
+      lanes_->inner_visits[rays_->packet_lane[lane]] += inner;
+      lanes_->triangle_tests[rays_->packet_lane[lane]] += triangles;
+    }
   }
   void log(std::uint32_t node, std::uint32_t num_tests) {
     if constexpr (kRecord) {
       if (log_ != nullptr) log_->push_back({node, num_tests});
     }
+  }
+  [[nodiscard]] const TraceCounts& counts() const { return counts_; }
+
+ private:
+  static std::uint64_t count(LaneMask lanes) {
+    return static_cast<std::uint64_t>(std::popcount(lanes));
   }
   void add(Lanes<std::uint32_t> LaneCounts::*counters, LaneMask lanes) {
     if constexpr (kRecord) {
@@ -62,6 +77,31 @@ class Recorder {
   LaneCounts* lanes_;
   const PassRays* rays_ = nullptr;
   TraceCounts counts_;
+};
+
+/// Reports the walk of one lane: counts in registers, which reach the recorder at the end.
+template <class Recorder>
+class LaneRecorder {
+ public:
+  LaneRecorder(Recorder& recorder, std::size_t lane) : recorder_(recorder), lane_(lane) {}
+  LaneRecorder(const LaneRecorder&) = delete;
+  LaneRecorder& operator=(const LaneRecorder&) = delete;
+  ~LaneRecorder() { recorder_.lane_walked(lane_, inner_, leaves_, triangles_); }
+
+  void inner(std::uint32_t node) {
+    ++inner_;
+    recorder_.log(node, 0);
+  }
+  void leaf() { ++leaves_; }
+  void triangles(std::uint32_t count) { triangles_ += count; }
+  void leaf_done(std::uint32_t node, std::uint32_t num_tests) { recorder_.log(node, num_tests); }
+
+ private:
+  Recorder& recorder_;
+  std::size_t lane_;
+  std::uint32_t inner_ = 0;
+  std::uint32_t leaves_ = 0;
+  std::uint32_t triangles_ = 0;
 };
 
 }  // namespace sheaf

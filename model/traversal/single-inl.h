@@ -12,6 +12,8 @@
 #include <limits>
 
 #include "traversal/pass_rays.h"
+#include "traversal/recorder.h"
+#include <hwy/cache_control.h>
 #include "traversal/simd-inl.h"
 #include "traversal/trace.h"
 
@@ -29,84 +31,87 @@ class SingleCursor {
         triangles_(triangles),
         rays_(rays),
         lane_(lane),
-        any_hit_(((rays.any_hit >> lane) & 1U) != 0) {
+        any_hit_(((rays.any_hit >> lane) & 1U) != 0),
+        limit_(rays.limit[lane]) {
     for (std::size_t a = 0; a < 3; ++a) {
-      axis_[a] = {rays.axis[a].near_origin[lane], rays.axis[a].far_origin[lane],
-                  rays.axis[a].inverse[lane],
-                  std::bit_cast<std::uint32_t>(rays.axis[a].inverse[lane]) >> 31};
+      const float inverse = rays.axis[a].inverse[lane];
+      const std::uint32_t negative = std::bit_cast<std::uint32_t>(inverse) >> 31;
+      axis_[a] = {rays.axis[a].near_origin[lane], rays.axis[a].far_origin[lane], inverse,
+                  0U - negative};
     }
   }
 
   /// Walks what lies below `node` within [enter, leave], which is not empty.
   template <class Recorder>
-  HWY_INLINE void walk(std::uint32_t node, float enter, float leave, Recorder& recorder) {
-    depth_ = 0;
-    node_ = node;
-    enter_ = enter;
-    leave_ = leave;
-    do {
-      step(recorder);
-    } while (node_ != kNowhere);
+  HWY_INLINE void walk(std::uint32_t node_index, float enter, float leave, Recorder& recorder) {
+    Postponed* top = stack_.data();
+    for (;;) {
+      KdNode node = nodes_[node_index];
+      while (!node.is_leaf()) {
+        recorder.inner(node_index);
+        const Axis axis = axis_[static_cast<std::size_t>(node.axis())];
+        const std::uint32_t left = node_index + 1;
+        const std::uint32_t swap = (left ^ node.right_child()) & axis.negative;
+        const std::uint32_t near = left ^ swap;
+        const std::uint32_t far = node.right_child() ^ swap;
+#ifdef PREF
+        hwy::Prefetch(nodes_ + far);
+#endif
+        const float near_until = (node.split() - axis.near_origin) * axis.inverse;
+        const float far_from = (node.split() - axis.far_origin) * axis.inverse;
+        const float near_leave = near_until < leave ? near_until : leave;
+        const float far_enter = far_from > enter ? far_from : enter;
+#if VARIANT == 0
+        if (enter <= near_leave) {
+          if (far_enter <= leave) *top++ = {far, far_enter, leave};
+          node_index = near;
+          leave = near_leave;
+        } else {
+          node_index = far;
+        }
+#elif VARIANT == 1
+        *top = {far, far_enter, leave};
+        const bool visit_near = enter <= near_leave;
+        const bool visit_far = far_enter <= leave;
+        top += visit_near & visit_far;
+        if (visit_near) {
+          node_index = near;
+          leave = near_leave;
+        } else {
+          node_index = far;
+        }
+#else
+        *top = {far, far_enter, leave};
+        const bool visit_near = enter <= near_leave;
+        const bool visit_far = far_enter <= leave;
+        top += visit_near & visit_far;
+        const std::uint32_t mask = 0U - static_cast<std::uint32_t>(visit_near);
+        node_index = far ^ ((far ^ near) & mask);
+        leave = visit_near ? near_leave : leave;
+#endif
+        node = nodes_[node_index];
+      }
+      recorder.leaf();
+      recorder.leaf_done(node_index, test_leaf(node, recorder));
+      do {
+        if (top == stack_.data()) return;
+        --top;
+        leave = top->leave < limit_ ? top->leave : limit_;
+      } while (!(top->enter <= leave));
+      node_index = top->node;
+      enter = top->enter;
+    }
   }
 
  private:
-  static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
   struct Axis {
     float near_origin, far_origin, inverse;
-    std::uint32_t negative;
+    std::uint32_t negative;  ///< all bits set if the direction is negative
   };
   struct Postponed {
     std::uint32_t node;
     float enter, leave;
   };
-
-  template <class Recorder>
-  HWY_INLINE void step(Recorder& recorder) {
-    const KdNode node = nodes_[node_];
-    if (node.is_leaf()) {
-      recorder.leaf(LaneMask{1} << lane_);
-      recorder.leaf_done(node_, test_leaf(node, recorder));
-      pop();
-    } else {
-      recorder.inner(node_, LaneMask{1} << lane_);
-      descend(node);
-    }
-  }
-
-  HWY_INLINE void descend(const KdNode node) {
-    const Axis& axis = axis_[static_cast<std::size_t>(node.axis())];
-    const std::uint32_t children[2] = {node_ + 1, node.right_child()};
-    const std::uint32_t near = children[axis.negative];
-    const std::uint32_t far = children[axis.negative ^ 1U];
-    const float near_until = (node.split() - axis.near_origin) * axis.inverse;
-    const float far_from = (node.split() - axis.far_origin) * axis.inverse;
-    const float near_leave = near_until < leave_ ? near_until : leave_;
-    const float far_enter = far_from > enter_ ? far_from : enter_;
-    const bool visit_far = far_enter <= leave_;
-    if (enter_ <= near_leave) {
-      if (visit_far) stack_[depth_++] = {far, far_enter, leave_};
-      node_ = near;
-      leave_ = near_leave;
-    } else {
-      node_ = far;
-      enter_ = far_enter;
-    }
-  }
-
-  HWY_INLINE void pop() {
-    const float limit = rays_.limit[lane_];
-    while (depth_ > 0) {
-      const Postponed& next = stack_[--depth_];
-      const float leave = next.leave < limit ? next.leave : limit;
-      if (next.enter <= leave) {
-        node_ = next.node;
-        enter_ = next.enter;
-        leave_ = leave;
-        return;
-      }
-    }
-    node_ = kNowhere;
-  }
 
   /// Returns how many triangles were tested.
   template <class Recorder>
@@ -116,27 +121,28 @@ class SingleCursor {
     const std::uint32_t* const list = leaf_triangles_ + node.first();
     const ShearedRay ray = rays_.sheared_ray(lane_);
     for (std::uint32_t i = 0; i < count; ++i) {
-      recorder.triangle(LaneMask{1} << lane_);
       const std::uint32_t triangle = list[i];
       TriangleHit hit;
       if (hit_sheared(ray.shear(&triangles_[triangle].a.x), hit) && accept(triangle, hit)) {
+        recorder.triangles(i + 1);
         return i + 1;
       }
     }
+    recorder.triangles(count);
     return count;
   }
 
   /// Whether the lane is done.
   HWY_INLINE bool accept(std::uint32_t triangle, const TriangleHit& hit) {
-    const float limit = rays_.limit[lane_];
-    const bool wins = hit.t < limit || (hit.t == limit && triangle < rays_.hit_triangle[lane_]);
+    const bool wins = hit.t < limit_ || (hit.t == limit_ && triangle < rays_.hit_triangle[lane_]);
     if (!(hit.t >= 0.0F && wins)) return false;
     rays_.has_hit |= LaneMask{1} << lane_;
     rays_.hit_t[lane_] = hit.t;
     rays_.hit_u[lane_] = hit.u;
     rays_.hit_v[lane_] = hit.v;
     rays_.hit_triangle[lane_] = triangle;
-    rays_.limit[lane_] = any_hit_ ? -std::numeric_limits<float>::infinity() : hit.t;
+    limit_ = any_hit_ ? -std::numeric_limits<float>::infinity() : hit.t;
+    rays_.limit[lane_] = limit_;
     return any_hit_;
   }
 
@@ -146,19 +152,17 @@ class SingleCursor {
   PassRays& rays_;
   const std::size_t lane_;
   const bool any_hit_;
+  float limit_;
   std::array<Axis, 3> axis_;
-  std::uint32_t node_ = kNowhere;
-  float enter_ = 0.0F;
-  float leave_ = 0.0F;
-  std::size_t depth_ = 0;
-  std::array<Postponed, kMaxKdDepth> stack_;
+  std::array<Postponed, kMaxKdDepth + 1> stack_;
 };
 
 template <class Recorder>
 HWY_NOINLINE void walk_lane(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
                             std::size_t lane, std::uint32_t node, float enter, float leave,
                             Recorder& recorder) {
-  SingleCursor(tree, triangles, rays, lane).walk(node, enter, leave, recorder);
+  LaneRecorder<Recorder> lane_recorder(recorder, lane);
+  SingleCursor(tree, triangles, rays, lane).walk(node, enter, leave, lane_recorder);
 }
 
 }  // namespace sheaf::HWY_NAMESPACE

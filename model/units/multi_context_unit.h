@@ -145,7 +145,6 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
       --num_ready_;
       self.issue(context, now);
     }
-    stalls_.switch_to(busy_until_ > now ? StallCause::kBusy : waiting_cause(), now);
   }
 
   void occupy_for(int context, Cycles taken, Cycles latency, Cycles now) {
@@ -157,12 +156,13 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     schedule(context, done);
   }
 
-  /// Closes the account of the time since the last event, in which nothing changed but that the
-  /// pipeline may have run empty.
+  /// Accounts for the time since the last event if the pipeline has run empty in between: nothing
+  /// else can have changed. While it is busy there is nothing to do.
   void account(Cycles now) {
-    if (stalls_.cause() == StallCause::kBusy && busy_until_ < now) {
-      stalls_.switch_to(waiting_cause(), busy_until_);
-    }
+    if (busy_until_ >= now) return;
+    stalls_.switch_to(waiting_cause(), busy_until_);
+    stalls_.switch_to(StallCause::kBusy, now);
+    busy_until_ = now;
   }
   [[nodiscard]] StallCause waiting_cause() const {
     if (blocked_ != 0) return StallCause::kBlockedOutput;
@@ -170,7 +170,7 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     return held_ != 0 ? StallCause::kWaitingInput : StallCause::kIdle;
   }
 
-  TimingWheel<1> wheel_;
+  TimingWheel wheel_;
   std::array<std::uint8_t, 64> ready_queue_{};
   std::size_t first_ready_ = 0;
   std::size_t num_ready_ = 0;
@@ -181,7 +181,7 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   Cycles port_free_ = 0;
   Cycles busy_until_ = 0;
   PipelineStats pipeline_stats_;
-  StallAccount stalls_;
+  StallAccount stalls_;  ///< busy up to busy_until_
 
  protected:
   [[nodiscard]] std::uint64_t parked() const { return parked_; }

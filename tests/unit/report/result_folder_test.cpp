@@ -150,12 +150,13 @@ TEST_F(ResultFolderTest, TheFolderIsExactlyTheOneAskedFor) {
   }
 }
 
-TEST_F(ResultFolderTest, AStagedFileThatWasNeverWrittenIsAnError) {
+TEST_F(ResultFolderTest, ACommitThatFailsLeavesNoMarkOfAWholeResult) {
+  finish_a_run(root_ / "result", "first");
   ResultFolder result(root_ / "result");
-  static_cast<void>(result.stage("image.exr"));
+  static_cast<void>(result.stage("image.exr"));  // and never writes it
   result.write("stats.json", "{}");
   EXPECT_THROW(result.commit(), Error);
-  EXPECT_FALSE(fs::exists(root_ / "result" / "stats.json")) << "marks a result as whole";
+  EXPECT_FALSE(fs::exists(root_ / "result" / "stats.json"));
 }
 
 TEST_F(ResultFolderTest, AFullDiskIsTold) {

@@ -93,6 +93,8 @@ TEST(LoadMaterial, EmissiveStrengthMultipliesTheFactor) {
   EXPECT_EQ(load_material(lamp).emission, Vec3(1, 0.5F, 0));
   lamp = with_extension(lamp, "KHR_materials_emissive_strength", {{"emissiveStrength", 8}});
   EXPECT_EQ(load_material(lamp).emission, Vec3(8, 4, 0));
+  lamp["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 5'000'000'000;
+  EXPECT_EQ(load_material(lamp).emission, Vec3(5e9F, 2.5e9F, 0));
 }
 
 TEST(LoadMaterial, UnlitSpawnsNothing) {

@@ -50,7 +50,13 @@ TEST(RefuseLimits, InstanceCountsDoNotOverflow) {
         {{"mesh", 0},
          {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"SCALE", places}}}}}}}});
   }
-  expect_refused(file, {"/meshes/0/primitives/0", "instances exceed"});
+  expect_refused(file, {"/nodes/4", "instances exceed"});
+}
+
+TEST(RefuseLimits, MoreEntriesThanAnySceneHas) {
+  GltfBuilder file = one_triangle();
+  file.root["textures"] = json(gltf::kMaxEntries + 1, json::object());
+  expect_refused(file, {"/textures", "1048577 entries"});
 }
 
 TEST(RefuseLimits, DeepJson) {
