@@ -31,8 +31,8 @@ class Agent {
 ///
 /// Units meet only through channels whose latency is at least one cycle, so agents due in the same
 /// cycle do not see each other's doing and their order is that of their registration. An agent may
-/// run ahead of the calendar to just below the next time at which any other agent is due; nothing
-/// can reach it before. The SystemC kernel is entered when another SystemC process has something
+/// run ahead of the calendar to just below the next time at which any other agent is due, and
+/// further to just below the earliest time at which anything can reach it. The SystemC kernel is entered when another SystemC process has something
 /// to do, not once for every hand-over.
 class ClockDomain : public sc_core::sc_module {
  public:
@@ -52,6 +52,14 @@ class ClockDomain : public sc_core::sc_module {
     const Cycles next = next_wake();
     return next < limit_ ? next : limit_;
   }
+
+  /// Makes every agent act in the calendar's order, cycle by cycle: slower, with the same result.
+  /// For tests of just that.
+  void forbid_running_ahead() { in_step_ = true; }
+  [[nodiscard]] bool in_step() const { return in_step_; }
+
+  /// The last cycle, exclusive, that the run may reach.
+  [[nodiscard]] Cycles end() const { return end_; }
 
   [[nodiscard]] const sc_core::sc_time& period() const { return period_; }
   /// The local time offset to pass along a TLM call made at cycle `now`.
@@ -110,6 +118,7 @@ class ClockDomain : public sc_core::sc_module {
   bool stopped_ = false;
   bool ran_dry_ = false;
   bool finished_ = false;
+  bool in_step_ = false;
 };
 
 /// Where a channel reports to: an agent, its domain, and the earliest time at which one of the

@@ -15,14 +15,13 @@ namespace sheaf {
 template <typename T>
 class TimedOut : public virtual sc_core::sc_interface {
  public:
-  /// Slots that a producer can fill at `now`. A slot that was read at a cycle is free from the
-  /// next cycle on.
-  [[nodiscard]] virtual std::size_t num_free(Cycles now) const = 0;
+  /// Slots that a producer can fill at `now`: it learns of a read one latency later.
+  [[nodiscard]] virtual std::size_t num_free(Cycles now) = 0;
   /// False, and nothing happens, if no slot is free.
   virtual bool nb_write(const T& value, Cycles now) = 0;
-  /// A write that will happen at `ready`, not before what has been written at earlier times and
-  /// before what has been at later ones. The channel must have room.
-  virtual void write_ahead(const T& value, Cycles ready) = 0;
+  /// A write at `ready`, which may be earlier or later than that of what has been written already;
+  /// of writes of the same cycle the lower rank comes first. The channel must have room.
+  virtual void write_ahead(const T& value, Cycles ready, std::uint32_t rank = 0) = 0;
   /// Wakes `producer` once a slot becomes free after a refused write.
   virtual void notify_when_free(Inbox& producer) = 0;
 };
@@ -44,9 +43,8 @@ class TimedIn : public virtual sc_core::sc_interface {
 
 /// Bounded, ordered link between units: a value written at cycle t arrives at t + latency, or
 /// `interval` cycles after the one before it, whichever is later. Its slot is occupied from the
-/// write until the cycle after the read, so `capacity` counts what is on the way and what waits;
-/// a full channel holds its producers up. Several producers may write; those of the same cycle
-/// come in order of their agents' rank.
+/// write until the producer has learned of the read, one latency after it; a full channel holds its
+/// producers up.
 template <typename T>
 class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public TimedIn<T> {
  public:
@@ -62,9 +60,12 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     ring_.resize(slots);
   }
 
-  [[nodiscard]] std::size_t num_free(Cycles now) const override {
-    const std::size_t held = size_ + (last_read_ == now ? read_in_cycle_ : 0);
-    return held < spec_.capacity ? spec_.capacity - held : 0;
+  [[nodiscard]] std::size_t num_free(Cycles now) override {
+    while (num_returning_ != 0 && returning_[first_returning_] <= now) {
+      first_returning_ = (first_returning_ + 1) & (returning_.size() - 1);
+      --num_returning_;
+    }
+    return spec_.capacity - size_ - num_returning_;
   }
 
   bool nb_write(const T& value, Cycles now) override {
@@ -73,13 +74,14 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     return true;
   }
 
-  void write_ahead(const T& value, Cycles ready) override {
+  void write_ahead(const T& value, Cycles ready, std::uint32_t rank = 0) override {
     if (size_ == ring_.size()) grow();
+    const Entry entry{ready, rank, value};
     std::size_t position = size_++;
-    for (; position > 0 && at(position - 1).ready > ready; --position) {
+    for (; position > 0 && entry.precedes(at(position - 1)); --position) {
       at(position) = at(position - 1);
     }
-    at(position) = {ready, value};
+    at(position) = entry;
     ++num_written_;
     if (size_ > max_size_) max_size_ = size_;
     if (position == 0) {
@@ -103,12 +105,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     head_ = (head_ + 1) & (ring_.size() - 1);
     --size_;
     update_head();
-    read_in_cycle_ = last_read_ == now ? read_in_cycle_ + 1 : 1;
-    last_read_ = now;
-    if (!waiting_.empty()) {
-      for (Inbox* producer : waiting_) producer->nudge(now + 1);
-      waiting_.clear();
-    }
+    if (spec_.capacity <= kMostCredits) return_credit(now + spec_.latency);
     return value;
   }
 
@@ -122,9 +119,30 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
  private:
   struct Entry {
     Cycles ready = 0;  ///< time of the write
+    std::uint32_t rank = 0;
     T value{};
+    [[nodiscard]] bool precedes(const Entry& other) const {
+      return ready != other.ready ? ready < other.ready : rank < other.rank;
+    }
   };
   static constexpr std::size_t kFirstSlots = 16;
+  // A channel with room for more than that is one that nothing can fill; it counts no credits.
+  static constexpr std::size_t kMostCredits = std::size_t{1} << 24;
+
+  void return_credit(Cycles arrival) {
+    if (num_returning_ == returning_.size()) {
+      std::vector<Cycles> larger(returning_.empty() ? kFirstSlots : returning_.size() * 2);
+      for (std::size_t i = 0; i < num_returning_; ++i) {
+        larger[i] = returning_[(first_returning_ + i) & (returning_.size() - 1)];
+      }
+      returning_.swap(larger);
+      first_returning_ = 0;
+    }
+    returning_[(first_returning_ + num_returning_++) & (returning_.size() - 1)] = arrival;
+    if (waiting_.empty()) return;
+    for (Inbox* producer : waiting_) producer->nudge(arrival);
+    waiting_.clear();
+  }
 
   [[nodiscard]] Entry& at(std::size_t position) {
     return ring_[(head_ + position) & (ring_.size() - 1)];
@@ -152,8 +170,9 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   std::size_t head_ = 0;
   std::size_t size_ = 0;
   std::size_t max_size_ = 0;
-  std::size_t read_in_cycle_ = 0;
-  Cycles last_read_ = kNever;
+  std::vector<Cycles> returning_;  ///< ring: when the producer learns of reads
+  std::size_t first_returning_ = 0;
+  std::size_t num_returning_ = 0;
   Cycles next_arrival_ = kNever;  ///< of the oldest value
   Cycles last_arrival_ = kNever;  ///< of the value read last
   std::uint64_t num_written_ = 0;

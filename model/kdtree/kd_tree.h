@@ -40,8 +40,8 @@ class KdNode {
 };
 static_assert(sizeof(KdNode) == 8);
 
-/// Node 0 is the root; there is always at least one node. A triangle that only touches a split plane
-/// stands on its own side alone, so a ray that lies in the plane must visit both children.
+/// Node 0 is the root; there is always at least one node. A triangle that only touches a split
+/// plane stands on its own side alone, so a ray that lies in the plane must visit both children.
 struct KdTree {
   std::vector<KdNode> nodes;
   std::vector<std::uint32_t> leaf_triangles;  ///< primitive numbers, ascending within a leaf

@@ -28,8 +28,8 @@ struct MemoryCounts {
 };
 
 /// Where everything stands in the simulated machine's memory: one region per kind of data, in the
-/// order of DataKind, the first at kBase, each beginning on a page. Pages are those of the first
-/// byte after the region before, so regions never overlap.
+/// order of DataKind, the first at kBase, each on the first page that the regions before it leave
+/// free.
 class MemoryMap {
  public:
   static constexpr Address kBase = 0x1000'0000;

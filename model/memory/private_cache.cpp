@@ -55,9 +55,9 @@ PrivateCache::Result PrivateCache::miss(std::uint64_t line, DataKind kind, int w
   ++stats_.num_accesses;
   ++stats_.num_misses;
   stats_.bytes_read += spec_.line;
-  requests_.nb_write({line << line_shift_, static_cast<std::uint32_t>(spec_.line), requester_, kind,
-                      false},
-                     now);
+  requests_.write_ahead({line << line_shift_, static_cast<std::uint32_t>(spec_.line), requester_,
+                         kind, false},
+                        now, requester_);
   return Result::kPending;
 }
 
@@ -77,9 +77,9 @@ std::uint64_t PrivateCache::fill(const LineResponse& response, Cycles now, std::
 void PrivateCache::write_back(std::uint64_t line, Cycles now) {
   ++stats_.num_writebacks;
   stats_.bytes_written += spec_.line;
-  requests_.nb_write({line << line_shift_, static_cast<std::uint32_t>(spec_.line), requester_,
-                      written_kind_, true},
-                     now);
+  requests_.write_ahead({line << line_shift_, static_cast<std::uint32_t>(spec_.line), requester_,
+                         written_kind_, true},
+                        now, requester_);
 }
 
 std::vector<std::uint64_t> PrivateCache::take_dirty_lines() {

@@ -78,9 +78,10 @@ class Planner {
 
  private:
   void add_triangles(std::uint64_t triangles, std::uint64_t instances, const std::string& place) {
-    std::uint64_t product = 0;
-    if (__builtin_mul_overflow(triangles, instances, &product) || product > kMaxTriangles ||
-        plan_.triangles + product > kMaxTriangles) {
+    // Neither factor is large enough to wrap: a triangle takes a byte of the file at least, or is
+    // one of kMaxZeroElements, and place_nodes bounds the instances.
+    const std::uint64_t product = triangles * instances;
+    if (plan_.triangles + product > kMaxTriangles) {
       refuse(place, fmt::format("{} triangles in {} instances exceed the scene's limit of {}",
                                 triangles, instances, kMaxTriangles));
     }

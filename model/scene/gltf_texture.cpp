@@ -10,8 +10,6 @@
 #include <limits>
 #include <memory>
 
-#include "scene/gltf_limits.h"
-
 namespace sheaf::gltf {
 namespace {
 
@@ -38,7 +36,7 @@ bool is_png_or_jpeg(ByteView bytes) {
   return begins_with(kPng) || begins_with(kJpeg);
 }
 
-void decode(ByteView bytes, const std::string& place, std::uint64_t& num_texels, Texture& texture) {
+void decode(ByteView bytes, const std::string& place, std::uint64_t& remaining, Texture& texture) {
   if (!is_png_or_jpeg(bytes) || bytes.size() > std::numeric_limits<int>::max()) {
     refuse(place, "is neither PNG nor JPEG; convert it");
   }
@@ -53,12 +51,13 @@ void decode(ByteView bytes, const std::string& place, std::uint64_t& num_texels,
   }
   texture.width = static_cast<std::uint32_t>(width);
   texture.height = static_cast<std::uint32_t>(height);
-  num_texels += std::uint64_t{texture.width} * texture.height;
-  if (std::max(texture.width, texture.height) > kMaxImageSide || num_texels > kMaxTexels) {
-    refuse(place, fmt::format("{} x {} pixels exceed the limits of {} a side and {} in all; scale "
-                              "it down",
+  const std::uint64_t texels = std::uint64_t{texture.width} * texture.height;
+  if (std::max(texture.width, texture.height) > kMaxImageSide || texels > remaining) {
+    refuse(place, fmt::format("{} x {} pixels exceed the limits of {} a side and {} in all images; "
+                              "scale it down",
                               width, height, kMaxImageSide, kMaxTexels));
   }
+  remaining -= texels;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4), &stbi_image_free);
   if (!pixels) refuse(place, fmt::format("broken image: {}", stbi_failure_reason()));
@@ -110,10 +109,10 @@ void TextureReader::read_image(int source, Texture& texture) {
   const ImageSource& image = document_.images[static_cast<std::size_t>(source)];
   const std::string place = fmt::format("/images/{}", source);
   if (image.uri.empty()) {
-    decode(buffer_view_bytes(document_, place, image.buffer_view), place, num_texels_, texture);
+    decode(buffer_view_bytes(document_, place, image.buffer_view), place, remaining_, texture);
   } else {
     const Bytes8 bytes = document_.uris.read(place + "/uri", image.uri);
-    decode(bytes, place, num_texels_, texture);
+    decode(bytes, place, remaining_, texture);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/gltf_document.h"
+#include "scene/gltf_limits.h"
 #include "scene/scene.h"
 
 namespace sheaf::gltf {
@@ -15,8 +16,10 @@ namespace sheaf::gltf {
 /// Decodes the images of the textures that materials ask for, once for each image and sampler.
 class TextureReader {
  public:
-  TextureReader(Document& document, std::vector<Texture>& textures)
-      : document_(document), textures_(textures) {}
+  /// All images together may have `max_texels`.
+  TextureReader(Document& document, std::vector<Texture>& textures,
+                std::uint64_t max_texels = kMaxTexels)
+      : document_(document), textures_(textures), remaining_(max_texels) {}
 
   /// Index into the scene's textures of glTF texture `index`, or kNoTexture, with a warning, for a
   /// texture that has no image of the core format.
@@ -31,7 +34,7 @@ class TextureReader {
   Document& document_;
   std::vector<Texture>& textures_;
   std::map<Key, std::int32_t> known_;
-  std::uint64_t num_texels_ = 0;
+  std::uint64_t remaining_;  ///< texels that may still be decoded
 };
 
 }  // namespace sheaf::gltf

@@ -19,6 +19,17 @@ constexpr std::size_t kNeverFull = std::size_t{1} << 40;
 
 sc_core::sc_time period_of(double frequency) { return {1.0 / frequency, sc_core::SC_SEC}; }
 
+// From the fastest path through link, unit and link that nothing holds up.
+AnswerTimes answer_times(const Config& config) {
+  const UnitSpec& unit = config.intersection_unit;
+  const Cycles hit = config.triangle_cache.hit_latency;
+  const Cycles slots = (config.packet.size + unit.lanes - 1) / unit.lanes;
+  return {.link = config.link.latency,
+          .line = 2 * config.link.memory_latency,
+          .leaf_fixed = 2 * config.link.latency + hit,
+          .leaf_test = slots * unit.initiation_interval - 1 + hit + unit.latency};
+}
+
 }  // namespace
 
 Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
@@ -73,6 +84,7 @@ void Machine::build_units() {
                            scheme_of(config_.traversal_scheme)};
   const ShadedScene shaded{scene_.scene, shader_, scene_.memory, packets_,
                            bundles_,     batches_, frame_.rays,  flow_};
+  const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
                         packet_size);
   TimedOut<LineRequest>& memory = *links_->caches_to_l2;
@@ -87,15 +99,15 @@ void Machine::build_units() {
     const std::uint16_t requester = add_requester(config_.node_cache);
     traversal_units_.push_back(std::make_unique<TraversalUnit>(
         fmt::format("traversal_unit{}", i).c_str(), config_.traversal_unit, packet_size,
-        config_.node_cache, traced, &frame_.heat, domain_, static_cast<std::uint16_t>(i), memory,
-        requester));
+        config_.node_cache, traced, times, &frame_.heat, domain_, static_cast<std::uint16_t>(i),
+        memory, requester));
     traversal_units_.back()->in_lines(*links_->l2_to_caches.back());
   }
   for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
     const std::uint16_t requester = add_requester(config_.triangle_cache);
     intersection_units_.push_back(std::make_unique<IntersectionUnit>(
         fmt::format("intersection_unit{}", i).c_str(), config_.intersection_unit, packet_size,
-        config_.triangle_cache, traced, domain_, memory, requester));
+        config_.triangle_cache, traced, times, domain_, memory, requester));
     intersection_units_.back()->in_lines(*links_->l2_to_caches.back());
   }
   for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
@@ -167,32 +179,32 @@ void Machine::connect() {
     unit.in_packets(*links.arbiter_to_traversal.back());
     links.intersection_to_traversal.push_back(std::make_unique<TimedChannel<LeafDone>>(
         number("intersection_to_traversal", i).c_str(),
-        TimedChannel<LeafDone>::Spec{.capacity = kNeverFull, .latency = latency}));
+        TimedChannel<LeafDone>::Spec{
+            .capacity = kNeverFull, .latency = latency, .interval = 0}));
     unit.in_done(*links.intersection_to_traversal.back());
     unit.out_free(*links.traversal_to_arbiter);
   }
-  for (std::size_t i = 0; i < intersection_units_.size(); ++i) {
-    IntersectionUnit& unit = *intersection_units_[i];
-    links.traversal_to_intersection.push_back(std::make_unique<TimedChannel<LeafJob>>(
-        number("traversal_to_intersection", i).c_str(),
-        TimedChannel<LeafJob>::Spec{.capacity = depth, .latency = latency}));
-    unit.in_jobs(*links.traversal_to_intersection.back());
-    for (auto& traversal : traversal_units_) {
-      traversal->out_jobs(*links.traversal_to_intersection.back());
+  for (auto& unit : intersection_units_) {
+    for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+      links.traversal_to_intersection.push_back(std::make_unique<TimedChannel<LeafJob>>(
+          fmt::format("traversal{}_to_{}", i, unit->name()).c_str(),
+          TimedChannel<LeafJob>::Spec{.capacity = depth, .latency = latency}));
+      unit->in_jobs(*links.traversal_to_intersection.back());
+      traversal_units_[i]->out_jobs(*links.traversal_to_intersection.back());
+      unit->out_done(*links.intersection_to_traversal[i]);
     }
-    for (auto& link : links.intersection_to_traversal) unit.out_done(*link);
   }
   links.shader_to_film = std::make_unique<TimedChannel<FilmBatch*>>(
       "shader_to_film", TimedChannel<FilmBatch*>::Spec{.capacity = depth, .latency = latency});
   film_->in_batches(*links.shader_to_film);
-  for (std::size_t i = 0; i < shader_units_.size(); ++i) {
-    ShaderUnit& unit = *shader_units_[i];
-    links.traversal_to_shader.push_back(
-        std::make_unique<PacketChannel>(number("traversal_to_shader", i).c_str(),
-                                        PacketChannel::Spec{.capacity = depth, .latency = latency}));
-    unit.in_packets(*links.traversal_to_shader.back());
-    for (auto& traversal : traversal_units_) {
-      traversal->out_packets(*links.traversal_to_shader.back());
+  for (auto& shader : shader_units_) {
+    ShaderUnit& unit = *shader;
+    for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+      links.traversal_to_shader.push_back(std::make_unique<PacketChannel>(
+          fmt::format("traversal{}_to_{}", i, unit.name()).c_str(),
+          PacketChannel::Spec{.capacity = depth, .latency = latency}));
+      unit.in_packets(*links.traversal_to_shader.back());
+      traversal_units_[i]->out_packets(*links.traversal_to_shader.back());
     }
     unit.out_film(*links.shader_to_film);
     if (plan_.secondary_rays) unit.out_bundles(*links.spawned_rays);

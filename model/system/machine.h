@@ -46,6 +46,8 @@ class Machine {
 
   void report(StatsTree& stats) const;
 
+  [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
+
  private:
   struct Links;
   void build_memory();

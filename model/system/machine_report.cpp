@@ -78,12 +78,11 @@ void Machine::report_links(StatsTree& stats) const {
   link("system.link.source_to_arbiter", *links_->source_to_arbiter);
   if (links_->packet_fifo) link("system.packet_fifo", *links_->packet_fifo);
   if (links_->spawned_rays) link("system.link.spawned_rays", *links_->spawned_rays);
-  for (std::size_t i = 0; i < links_->traversal_to_intersection.size(); ++i) {
-    link(fmt::format("system.link.traversal_to_intersection{}", i),
-         *links_->traversal_to_intersection[i]);
+  for (const auto& channel : links_->traversal_to_intersection) {
+    link(fmt::format("system.link.{}", channel->name()), *channel);
   }
-  for (std::size_t i = 0; i < links_->traversal_to_shader.size(); ++i) {
-    link(fmt::format("system.link.traversal_to_shader{}", i), *links_->traversal_to_shader[i]);
+  for (const auto& channel : links_->traversal_to_shader) {
+    link(fmt::format("system.link.{}", channel->name()), *channel);
   }
   link("system.link.shader_to_film", *links_->shader_to_film);
 }

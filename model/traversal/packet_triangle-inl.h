@@ -11,7 +11,7 @@
 
 #include <limits>
 
-#include "traversal/pass_rays.h"
+#include "traversal/packed_rays.h"
 #include "traversal/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,14 +29,25 @@ struct PermutedCorners {
   FloatVec a[3], b[3], c[3];
 };
 
-HWY_INLINE PermutedCorners permute_all(const float* corners, const PassRays& rays) {
+/// The axis that all rays of a pass share as their z, or kNoSharedAxis.
+using SharedAxis = std::size_t;
+inline constexpr SharedAxis kNoSharedAxis = 3;
+
+HWY_INLINE SharedAxis shared_axis(LaneMask lanes, const PackedRays& rays) {
+  SharedAxis axis = 0;
+  while (axis < 3 && (lanes & ~rays.longest[axis]) != 0) ++axis;
+  return axis;
+}
+
+HWY_INLINE PermutedCorners permute_all(const float* corners, SharedAxis z) {
   const FloatTag d;
+  const std::size_t x = z == 2 ? 0 : z + 1;
+  const std::size_t axes[3] = {x, x == 2 ? 0 : x + 1, z};
   PermutedCorners p;
   for (std::size_t k = 0; k < 3; ++k) {
-    const float* const from = corners + rays.permutation[k][0];
-    p.a[k] = hn::Set(d, from[0]);
-    p.b[k] = hn::Set(d, from[3]);
-    p.c[k] = hn::Set(d, from[6]);
+    p.a[k] = hn::Set(d, corners[axes[k]]);
+    p.b[k] = hn::Set(d, corners[3 + axes[k]]);
+    p.c[k] = hn::Set(d, corners[6 + axes[k]]);
   }
   return p;
 }
@@ -44,7 +55,7 @@ HWY_INLINE PermutedCorners permute_all(const float* corners, const PassRays& ray
 /// Each lane picks its own axis out of four floats that every 128-bit block holds a copy of. Four
 /// floats from the last corner on would end behind the record, so that they start one before it.
 HWY_INLINE PermutedCorners permute_each(const float* corners, std::size_t group,
-                                        const PassRays& rays) {
+                                        const PackedRays& rays) {
   const FloatTag d;
   PermutedCorners p;
 #if HWY_TARGET == HWY_SCALAR
@@ -72,10 +83,10 @@ HWY_INLINE PermutedCorners permute_each(const float* corners, std::size_t group,
   return p;
 }
 
-HWY_INLINE ShearedGroup shear_group(const float* corners, std::size_t group,
-                                    const PassRays& rays) {
-  const PermutedCorners p = rays.same_permutation ? permute_all(corners, rays)
-                                                  : permute_each(corners, group, rays);
+HWY_INLINE ShearedGroup shear_group(const float* corners, SharedAxis shared, std::size_t group,
+                                    const PackedRays& rays) {
+  const PermutedCorners p = shared != kNoSharedAxis ? permute_all(corners, shared)
+                                                    : permute_each(corners, group, rays);
   const FloatVec origin_x = load(rays.origin[0], group);
   const FloatVec origin_y = load(rays.origin[1], group);
   const FloatVec origin_z = load(rays.origin[2], group);
@@ -129,7 +140,7 @@ HWY_NOINLINE LaneMask decide_in_double(const ShearedGroup& s, LaneMask lanes, Hi
 
 /// Stores the hits of the lanes where they win; returns the lanes that end with them.
 HWY_INLINE LaneMask accept(const HitGroup& hit, std::uint32_t triangle, std::size_t group,
-                           LaneMask lanes, PassRays& rays) {
+                           LaneMask lanes, PackedRays& rays) {
   const FloatTag d;
   const IndexTag di;
   std::uint32_t* const triangles = rays.hit_triangle.data() + group * kGroupLanes;
@@ -154,11 +165,11 @@ HWY_INLINE LaneMask accept(const HitGroup& hit, std::uint32_t triangle, std::siz
 
 /// hit_sheared() and what follows from it for the given lanes of a group; returns the lanes that
 /// end with this triangle.
-HWY_INLINE LaneMask test_triangle(const float* corners, std::uint32_t triangle, std::size_t group,
-                                  LaneMask lanes, PassRays& rays) {
+HWY_INLINE LaneMask test_triangle(const float* corners, std::uint32_t triangle, SharedAxis shared,
+                                  std::size_t group, LaneMask lanes, PackedRays& rays) {
   const FloatTag d;
   const FloatVec zero = hn::Zero(d);
-  const ShearedGroup s = shear_group(corners, group, rays);
+  const ShearedGroup s = shear_group(corners, shared, group, rays);
   const FloatVec u = hn::Sub(hn::Mul(s.cx, s.by), hn::Mul(s.cy, s.bx));
   const FloatVec v = hn::Sub(hn::Mul(s.ax, s.cy), hn::Mul(s.ay, s.cx));
   const FloatVec w = hn::Sub(hn::Mul(s.bx, s.ay), hn::Mul(s.by, s.ax));

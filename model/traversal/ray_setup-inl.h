@@ -12,43 +12,64 @@
 #include <limits>
 
 #include "geometry/box.h"
-#include "traversal/pass_rays.h"
+#include "traversal/packed_rays.h"
 #include "traversal/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sheaf::HWY_NAMESPACE {
 
-/// Origins, directions and t_max of a pass before anything is computed from them.
+/// Origins, directions and t_max of the rays before anything is computed from them.
 struct alignas(64) RawRays {
   std::array<Lanes<float>, 3> origin;
   std::array<Lanes<float>, 3> direction;
   Lanes<float> t_max;
 };
 
-/// Packs the given lanes of a packet into the first lanes of a pass. The lanes that fill up the
-/// last vector repeat the first ray, but with a t_max that lets them meet nothing.
-HWY_INLINE void pack(const RayPacket& packet, LaneMask lanes, RawRays& raw, PassRays& rays) {
-  rays.count = std::popcount(lanes);
-  rays.any_hit = 0;
-  rays.has_hit = 0;
-  std::size_t to = 0;
-  const auto put = [&](std::size_t from, float t_max) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      raw.origin[a][to] = packet.origin[a][from];
-      raw.direction[a][to] = packet.direction[a][from];
-    }
-    raw.t_max[to] = t_max;
-    ++to;
-  };
-  const auto first = static_cast<std::size_t>(std::countr_zero(lanes));
-  for (LaneMask left = lanes; left != 0; left &= left - 1) {
-    const auto from = static_cast<std::size_t>(std::countr_zero(left));
-    rays.any_hit |= ((packet.any_hit >> from) & 1U) << to;
-    rays.packet_lane[to] = static_cast<std::uint8_t>(from);
-    put(from, packet.t_max[from]);
+/// Moves lanes of a packet into the lanes of a PackedRays, one behind the other.
+class Packer {
+ public:
+  Packer(const RayPacket& packet, RawRays& raw, PackedRays& rays)
+      : packet_(packet), raw_(raw), rays_(rays) {
+    rays_.count = 0;
+    rays_.any_hit = 0;
+    rays_.has_hit = 0;
   }
-  while (to % kGroupLanes != 0) put(first, -1.0F);
-}
+
+  /// Returns the lanes that the given lanes of the packet went to.
+  HWY_INLINE LaneMask put(LaneMask lanes) {
+    const int begin = rays_.count;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto from = static_cast<std::size_t>(std::countr_zero(lanes));
+      const auto to = static_cast<std::size_t>(rays_.count++);
+      rays_.any_hit |= ((packet_.any_hit >> from) & 1U) << to;
+      rays_.packet_lane[to] = static_cast<std::uint8_t>(from);
+      copy(from, to);
+      raw_.t_max[to] = packet_.t_max[from];
+    }
+    const auto up_to = [](int lane) { return lane == 64 ? ~LaneMask{0} : (LaneMask{1} << lane) - 1; };
+    return up_to(rays_.count) & ~up_to(begin);
+  }
+
+  /// Fills up the last vector with copies of a ray that may meet nothing.
+  HWY_INLINE void pad() {
+    for (auto to = static_cast<std::size_t>(rays_.count); to % kGroupLanes != 0; ++to) {
+      copy(rays_.packet_lane[0], to);
+      raw_.t_max[to] = -1.0F;
+    }
+  }
+
+ private:
+  HWY_INLINE void copy(std::size_t from, std::size_t to) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      raw_.origin[a][to] = packet_.origin[a][from];
+      raw_.direction[a][to] = packet_.direction[a][from];
+    }
+  }
+
+  const RayPacket& packet_;
+  RawRays& raw_;
+  PackedRays& rays_;
+};
 
 /// `choice` 0, 1 or 2 as two masks: picks the component of that axis.
 struct AxisChoice {
@@ -59,7 +80,7 @@ struct AxisChoice {
 };
 
 /// The part of the watertight test, for one group; see ShearedRay, which computes the same.
-HWY_INLINE AxisChoice set_up_shear(const RawRays& raw, std::size_t group, PassRays& rays) {
+HWY_INLINE AxisChoice set_up_shear(const RawRays& raw, std::size_t group, PackedRays& rays) {
   const FloatTag d;
   const FloatVec dir[3] = {load(raw.direction[0], group), load(raw.direction[1], group),
                            load(raw.direction[2], group)};
@@ -102,7 +123,7 @@ HWY_INLINE AxisChoice set_up_shear(const RawRays& raw, std::size_t group, PassRa
 /// in the near child at least until then. Moved on, they come out too near: the far child begins
 /// there. Both are right for planes behind the ray too, for the signs are exact.
 HWY_INLINE void set_up_planes(const RawRays& raw, std::size_t group, const Box& bounds,
-                              const AxisChoice& longest, PassRays& rays) {
+                              const AxisChoice& longest, PackedRays& rays) {
   const FloatTag d;
   constexpr float kHalfUlp = 0x1p-24F;
   FloatVec reach[3];
@@ -150,7 +171,7 @@ HWY_INLINE void set_up_planes(const RawRays& raw, std::size_t group, const Box& 
 
 /// A closest-hit lane accepts t <= t_max, an any-hit lane t < t_max: with t_max as the limit, the
 /// tie rule says so if the one starts with the highest and the other with the lowest primitive.
-HWY_INLINE void set_up_results(const RawRays& raw, std::size_t group, PassRays& rays) {
+HWY_INLINE void set_up_results(const RawRays& raw, std::size_t group, PackedRays& rays) {
   const FloatTag d;
   const IndexTag di;
   const FloatVec largest = hn::Set(d, std::numeric_limits<float>::max());
@@ -161,26 +182,21 @@ HWY_INLINE void set_up_results(const RawRays& raw, std::size_t group, PassRays& 
             rays.hit_triangle.data() + group * kGroupLanes);
 }
 
-/// Computes all that a pass over the given lanes of a packet needs.
-HWY_INLINE void set_up_rays(const RayPacket& packet, LaneMask lanes, const Box& bounds,
-                            PassRays& rays) {
-  RawRays raw;
-  pack(packet, lanes, raw, rays);
+/// Computes all that the kernels need of the rays packed.
+HWY_INLINE void set_up_rays(const RawRays& raw, const Box& bounds, PackedRays& rays) {
+  rays.longest = {};
   const auto count = static_cast<std::size_t>(rays.count);
-  LaneMask all_x = kGroupMask;
-  LaneMask all_y = kGroupMask;
-  LaneMask none_xy = kGroupMask;
   for (std::size_t group = 0; group * kGroupLanes < count; ++group) {
     const AxisChoice longest = set_up_shear(raw, group, rays);
     const LaneMask is_x = bits_of(longest.is_x);
     const LaneMask is_y = bits_of(longest.is_y);
-    all_x &= is_x;
-    all_y &= is_y;
-    none_xy &= ~(is_x | is_y);
+    const std::size_t first = group * kGroupLanes;
+    rays.longest[0] |= is_x << first;
+    rays.longest[1] |= is_y << first;
+    rays.longest[2] |= (~(is_x | is_y) & kGroupMask) << first;
     set_up_planes(raw, group, bounds, longest, rays);
     set_up_results(raw, group, rays);
   }
-  rays.same_permutation = all_x == kGroupMask || all_y == kGroupMask || none_xy == kGroupMask;
 }
 
 }  // namespace sheaf::HWY_NAMESPACE

@@ -4,7 +4,7 @@
 
 #include <bit>
 
-#include "traversal/pass_rays.h"
+#include "traversal/packed_rays.h"
 #include "traversal/trace.h"
 
 namespace sheaf {
@@ -14,10 +14,9 @@ namespace sheaf {
 template <bool kRecord>
 class Recorder {
  public:
-  Recorder(TraceLog* log, LaneCounts* lanes) : log_(log), lanes_(lanes) {}
-
-  /// The lane numbers that follow are those of `rays`.
-  void start(const PassRays& rays) { rays_ = &rays; }
+  /// Lane numbers will be those of `rays`. `log` and `lanes` may be null.
+  Recorder(TraceLog* log, LaneCounts* lanes, const PackedRays& rays)
+      : log_(log), lanes_(lanes), rays_(rays) {}
 
   void inner(std::uint32_t node, LaneMask lanes) {
     ++counts_.packet_inner_visits;
@@ -48,8 +47,8 @@ class Recorder {
     counts_.lane_triangle_tests += triangles;
     if constexpr (kRecord) {
       if (lanes_ == nullptr) return;
-      lanes_->inner_visits[rays_->packet_lane[lane]] += inner;
-      lanes_->triangle_tests[rays_->packet_lane[lane]] += triangles;
+      lanes_->inner_visits[rays_.packet_lane[lane]] += inner;
+      lanes_->triangle_tests[rays_.packet_lane[lane]] += triangles;
     }
   }
   void log(std::uint32_t node, std::uint32_t num_tests) {
@@ -68,14 +67,14 @@ class Recorder {
       if (lanes_ == nullptr) return;
       for (; lanes != 0; lanes &= lanes - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-        ++(lanes_->*counters)[rays_->packet_lane[lane]];
+        ++(lanes_->*counters)[rays_.packet_lane[lane]];
       }
     }
   }
 
   TraceLog* log_;
   LaneCounts* lanes_;
-  const PassRays* rays_ = nullptr;
+  const PackedRays& rays_;
   TraceCounts counts_;
 };
 

@@ -9,11 +9,12 @@
 #define SHEAF_TRAVERSAL_SINGLE_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <limits>
 
-#include "traversal/pass_rays.h"
+#include "traversal/packed_rays.h"
 #include "traversal/recorder.h"
-#include <hwy/cache_control.h>
 #include "traversal/simd-inl.h"
 #include "traversal/trace.h"
 
@@ -24,7 +25,7 @@ namespace sheaf::HWY_NAMESPACE {
 /// MaskedCursor, so that a ray fares the same in either.
 class SingleCursor {
  public:
-  SingleCursor(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
+  SingleCursor(const KdTree& tree, const TriangleRecord* triangles, PackedRays& rays,
                std::size_t lane)
       : nodes_(tree.nodes.data()),
         leaf_triangles_(tree.leaf_triangles.data()),
@@ -54,41 +55,22 @@ class SingleCursor {
         const std::uint32_t swap = (left ^ node.right_child()) & axis.negative;
         const std::uint32_t near = left ^ swap;
         const std::uint32_t far = node.right_child() ^ swap;
-#ifdef PREF
         hwy::Prefetch(nodes_ + far);
-#endif
         const float near_until = (node.split() - axis.near_origin) * axis.inverse;
         const float far_from = (node.split() - axis.far_origin) * axis.inverse;
         const float near_leave = near_until < leave ? near_until : leave;
         const float far_enter = far_from > enter ? far_from : enter;
-#if VARIANT == 0
-        if (enter <= near_leave) {
-          if (far_enter <= leave) *top++ = {far, far_enter, leave};
-          node_index = near;
-          leave = near_leave;
-        } else {
-          node_index = far;
-        }
-#elif VARIANT == 1
-        *top = {far, far_enter, leave};
+        // Whether both children are visited is hard to predict: store in any case, keep if so.
         const bool visit_near = enter <= near_leave;
         const bool visit_far = far_enter <= leave;
-        top += visit_near & visit_far;
+        *top = {far, far_enter, leave};
+        top += visit_near & visit_far ? 1 : 0;
         if (visit_near) {
           node_index = near;
           leave = near_leave;
         } else {
           node_index = far;
         }
-#else
-        *top = {far, far_enter, leave};
-        const bool visit_near = enter <= near_leave;
-        const bool visit_far = far_enter <= leave;
-        top += visit_near & visit_far;
-        const std::uint32_t mask = 0U - static_cast<std::uint32_t>(visit_near);
-        node_index = far ^ ((far ^ near) & mask);
-        leave = visit_near ? near_leave : leave;
-#endif
         node = nodes_[node_index];
       }
       recorder.leaf();
@@ -149,7 +131,7 @@ class SingleCursor {
   const KdNode* const nodes_;
   const std::uint32_t* const leaf_triangles_;
   const TriangleRecord* const triangles_;
-  PassRays& rays_;
+  PackedRays& rays_;
   const std::size_t lane_;
   const bool any_hit_;
   float limit_;
@@ -158,7 +140,7 @@ class SingleCursor {
 };
 
 template <class Recorder>
-HWY_NOINLINE void walk_lane(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
+HWY_NOINLINE void walk_lane(const KdTree& tree, const TriangleRecord* triangles, PackedRays& rays,
                             std::size_t lane, std::uint32_t node, float enter, float leave,
                             Recorder& recorder) {
   LaneRecorder<Recorder> lane_recorder(recorder, lane);

@@ -30,8 +30,8 @@ HWY_INLINE LaneMask sign_bits(const Lanes<float>& values, int size) {
   return bits;
 }
 
-/// Puts the results of a pass back into the packet's lanes.
-HWY_INLINE void unpack(const PassRays& rays, RayPacket& packet) {
+/// Puts the results back into the packet's lanes.
+HWY_INLINE void unpack(const PackedRays& rays, RayPacket& packet) {
   for (std::size_t from = 0; from < static_cast<std::size_t>(rays.count); ++from) {
     const std::size_t to = rays.packet_lane[from];
     const bool hit = ((rays.has_hit >> from) & 1U) != 0;
@@ -43,7 +43,7 @@ HWY_INLINE void unpack(const PassRays& rays, RayPacket& packet) {
 }
 
 template <class Recorder>
-HWY_INLINE void walk_single(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
+HWY_INLINE void walk_single(const KdTree& tree, const TriangleRecord* triangles, PackedRays& rays,
                             Recorder& recorder) {
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(rays.count); ++lane) {
     if (!(rays.enter[lane] <= rays.leave[lane])) continue;
@@ -51,49 +51,71 @@ HWY_INLINE void walk_single(const KdTree& tree, const TriangleRecord* triangles,
   }
 }
 
+/// Rays of one direction-sign configuration.
+struct Pass {
+  LaneMask members;
+  unsigned sign;
+};
+
+/// Packs the rays so that those of a configuration lie side by side; returns the number of passes.
+HWY_INLINE std::size_t pack_by_sign(const RayPacket& packet, Packer& packer,
+                                    std::array<Pass, 8>& passes) {
+  const LaneMask signs[3] = {sign_bits(packet.direction[0], packet.size),
+                             sign_bits(packet.direction[1], packet.size),
+                             sign_bits(packet.direction[2], packet.size)};
+  std::size_t count = 0;
+  for (unsigned sign = 0; sign < 8; ++sign) {
+    LaneMask members = packet.active;
+    for (std::size_t a = 0; a < 3; ++a) {
+      members &= ((sign >> a) & 1U) != 0 ? signs[a] : ~signs[a];
+    }
+    if (members != 0) passes[count++] = {packer.put(members), sign};
+  }
+  return count;
+}
+
 /// Walks with the fewest vectors that hold the rays, of the numbers of vectors compiled.
 template <std::size_t kGroups, class Recorder>
-HWY_INLINE void walk_masked(const KdTree& tree, const TriangleRecord* triangles, PassRays& rays,
-                            Recorder& recorder) {
+HWY_INLINE void walk_masked(const KdTree& tree, const TriangleRecord* triangles, PackedRays& rays,
+                            const Pass& pass, Recorder& recorder) {
   if constexpr (kGroups * kGroupLanes < kMaxPacketSize) {
     if (static_cast<std::size_t>(rays.count) > kGroups * kGroupLanes) {
       constexpr std::size_t kMore = kGroupLanes * kGroups == 4 ? 4 : 2;
-      walk_masked<kMore * kGroups>(tree, triangles, rays, recorder);
+      walk_masked<kMore * kGroups>(tree, triangles, rays, pass, recorder);
       return;
     }
   }
-  MaskedCursor<kGroups>(tree, triangles, rays).walk(recorder);
+  MaskedCursor<kGroups>(tree, triangles, rays, pass.members, pass.sign).walk(recorder);
 }
 
 template <bool kRecord>
 void trace(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,
            RayPacket& packet, TraceLog* log, LaneCounts* lanes, TraceCounts& counts) {
-  PassRays rays;
-  Recorder<kRecord> recorder(log, lanes);
-  recorder.start(rays);
+  RawRays raw;
+  PackedRays rays;
+  std::array<Pass, 8> passes;
+  std::size_t num_passes = 0;
+  Packer packer(packet, raw, rays);
   if (scheme == TraversalScheme::kSingle) {
-    set_up_rays(packet, packet.active, tree.bounds, rays);
+    packer.put(packet.active);
+  } else {
+    num_passes = pack_by_sign(packet, packer, passes);
+  }
+  packer.pad();
+  set_up_rays(raw, tree.bounds, rays);
+
+  Recorder<kRecord> recorder(log, lanes, rays);
+  if (scheme == TraversalScheme::kSingle) {
     walk_single(tree, triangles, rays, recorder);
-    unpack(rays, packet);
     counts.passes += static_cast<std::uint64_t>(rays.count);
   } else {
-    const LaneMask signs[3] = {sign_bits(packet.direction[0], packet.size),
-                               sign_bits(packet.direction[1], packet.size),
-                               sign_bits(packet.direction[2], packet.size)};
-    for (LaneMask sign = 0; sign < 8; ++sign) {
-      LaneMask members = packet.active;
-      for (std::size_t a = 0; a < 3; ++a) {
-        members &= ((sign >> a) & 1U) != 0 ? signs[a] : ~signs[a];
-      }
-      if (members == 0) continue;
-      set_up_rays(packet, members, tree.bounds, rays);
-      rays.sign = sign;
-      constexpr std::size_t kLeastGroups = kGroupLanes == 1 ? kMaxPacketSize : 1;
-      walk_masked<kLeastGroups>(tree, triangles, rays, recorder);
-      unpack(rays, packet);
-      ++counts.passes;
+    constexpr std::size_t kLeastGroups = kGroupLanes == 1 ? kMaxPacketSize : 1;
+    for (std::size_t i = 0; i < num_passes; ++i) {
+      walk_masked<kLeastGroups>(tree, triangles, rays, passes[i], recorder);
     }
+    counts.passes += num_passes;
   }
+  unpack(rays, packet);
   counts += recorder.counts();
 }
 

@@ -8,19 +8,21 @@ namespace sheaf {
 
 IntersectionUnit::IntersectionUnit(const sc_core::sc_module_name& name, const UnitSpec& spec,
                                    int packet_size, const CacheSpec& cache,
-                                   const TracedScene& scene, ClockDomain& domain,
-                                   TimedOut<LineRequest>& memory, std::uint16_t requester)
+                                   const TracedScene& scene, const AnswerTimes& times,
+                                   ClockDomain& domain, TimedOut<LineRequest>& memory,
+                                   std::uint16_t requester)
     : MultiContextUnit(name, spec, packet_size, domain),
       in_jobs("in_jobs"),
       in_lines("in_lines"),
       out_done("out_done"),
       scene_(scene),
+      times_(times),
       cache_(cache, memory, requester),
       fetcher_(cache_),
       contexts_(spec.contexts) {}
 
 void IntersectionUnit::end_of_elaboration() {
-  in_jobs->set_consumer(inbox_);
+  jobs_.bind(in_jobs, inbox_);
   in_lines->set_consumer(inbox_);
 }
 
@@ -28,14 +30,22 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
   while (in_lines->has_arrived(now)) {
     fetcher_.fill(in_lines->read(now), now, [&](int context) { unpark(context, now); });
   }
-  while (has_free_context() && in_jobs->has_arrived(now)) {
+  LeafJob job;
+  while (has_free_context() && jobs_.read(job, now)) {
     const int number = take_context();
-    contexts_[static_cast<std::size_t>(number)] = {in_jobs->read(now), 0, Phase::kList};
+    contexts_[static_cast<std::size_t>(number)] = {job, 0, Phase::kList};
     schedule(number, now);
   }
   // Jobs that have arrived but find no context wait until ready() frees one.
-  const Cycles next_job = has_free_context() ? in_jobs->next_arrival() : kNever;
+  const Cycles next_job = has_free_context() ? jobs_.next_arrival() : kNever;
   return std::min(in_lines->next_arrival(), next_job);
+}
+
+// A job matters only while there is a context for it.
+Cycles IntersectionUnit::earliest_input(Cycles others) const {
+  const Cycles message = others == kNever ? kNever : others + times_.link;
+  if (has_free_context()) return message;
+  return std::max(message, earliest_answer());
 }
 
 void IntersectionUnit::ready(int number, Cycles now) {
@@ -51,9 +61,9 @@ void IntersectionUnit::ready(int number, Cycles now) {
         return;
       }
       // The link has room for every context of the traversal unit.
-      out_done[context.job.unit]->nb_write({context.job.context}, now);
+      out_done[context.job.unit]->write_ahead({context.job.context}, now, context.job.context);
       free_context(number);
-      inbox_.set_next(std::min(inbox_.next(), std::max(in_jobs->next_arrival(), now + 1)));
+      inbox_.set_next(std::min(inbox_.next(), std::max(jobs_.next_arrival(), now + 1)));
       return;
   }
 }
@@ -74,7 +84,6 @@ void IntersectionUnit::issue(int number, Cycles now) {
   const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
   std::uint32_t lookups = 0;
   bool complete = false;
-  Cycles slots = 1;
   if (context.phase == Phase::kList) {
     complete = fetch(number, scene_.memory.leaf_entry(first),
                      context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList,
@@ -84,14 +93,15 @@ void IntersectionUnit::issue(int number, Cycles now) {
     const std::uint32_t triangle = scene_.tree.leaf_triangles[first + context.tested];
     complete = fetch(number, scene_.memory.triangle(triangle), MemoryMap::kTriangleSize,
                      DataKind::kTriangle, lookups, now);
-    slots = slots_per_step_;
     if (complete) context.phase = Phase::kTriangleIssued;
   }
-  if (complete) {
-    occupy(number, slots, cache_.hit_latency(), lookups, now);
-  } else {
-    park(number);
+  if (!complete) {
+    park(number, now + times_.line);
     occupy_missed(lookups, now);
+  } else if (context.phase == Phase::kListIssued) {
+    occupy_fetch(number, cache_.hit_latency(), lookups, now);
+  } else {
+    occupy(number, slots_per_step_, cache_.hit_latency(), lookups, now);
   }
 }
 

@@ -17,10 +17,10 @@ namespace sheaf {
 class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
  public:
   IntersectionUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
-                   const CacheSpec& cache, const TracedScene& scene, ClockDomain& domain,
-                   TimedOut<LineRequest>& memory, std::uint16_t requester);
+                   const CacheSpec& cache, const TracedScene& scene, const AnswerTimes& times,
+                   ClockDomain& domain, TimedOut<LineRequest>& memory, std::uint16_t requester);
 
-  sc_core::sc_port<TimedIn<LeafJob>> in_jobs;
+  sc_core::sc_port<TimedIn<LeafJob>, 0> in_jobs;     ///< one per traversal unit
   sc_core::sc_port<TimedIn<LineResponse>> in_lines;
   sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
 
@@ -40,10 +40,13 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   Cycles accept_inputs(Cycles now);
   void ready(int context, Cycles now);
   void issue(int context, Cycles now);
+  [[nodiscard]] Cycles earliest_input(Cycles others) const;
   bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
              Cycles now);
 
   const TracedScene scene_;
+  const AnswerTimes times_;
+  MergedInput<LeafJob> jobs_;
   PrivateCache cache_;
   LineFetcher fetcher_;
   std::vector<Context> contexts_;

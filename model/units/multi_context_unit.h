@@ -35,18 +35,28 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 /// initiation interval, waits until all its lines have come and is issued again, without another
 /// look-up of the lines it had.
 ///
-/// Derived provides: accept_inputs(now), ready(context, now) for a context whose time has come, and
-/// issue(context, now); it calls the protected members below.
+/// A unit runs ahead of all others up to the earliest cycle at which an input can reach it
+/// (earliest_input), which it knows from what it has asked for. All it writes carries its own time.
+///
+/// Derived provides: accept_inputs(now), ready(context, now) for a context whose time has come,
+/// issue(context, now) and earliest_input(others), where no other agent acts before `others`; it
+/// calls the protected members below.
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
   Cycles wake(Cycles now) final {
     for (;;) {
+      // What arrives behind the unit's own time found no free context until then.
+      if (now <= latest_ && !resumes_) return latest_ + 1;
+      latest_ = now;
       act(now);
+      resumes_ = held_back_;
+      held_back_ = false;
+      if (resumes_) return now;
       Cycles next = wheel_.peek();
       if (inbox_.next() < next) next = inbox_.next();
       if (num_ready_ != 0 && port_free_ < next) next = port_free_;
-      if (next >= domain_.horizon()) return next;
+      if (next >= safe_until()) return next;
       now = next;
     }
   }
@@ -113,14 +123,39 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     if (port_free_ > busy_until_) busy_until_ = port_free_;
   }
 
+  /// Whether all that other units do before `now` has been simulated, so that a channel which seems
+  /// full is full.
+  [[nodiscard]] bool is_certain(Cycles now) const { return now <= domain_.horizon(); }
+  /// Not knowing: stops here, and calls ready(context) again once it is certain.
+  void hold_back(int context, Cycles now) {
+    held_back_ = true;
+    schedule(context, now);
+  }
+
+  // Contexts that wait for an answer of another unit or of memory, which cannot come before
+  // `earliest`.
+  void await(int context, Cycles earliest) {
+    awaited_[static_cast<std::size_t>(context)] = earliest;
+  }
+  void answered(int context) { awaited_[static_cast<std::size_t>(context)] = kNever; }
+  [[nodiscard]] Cycles earliest_answer() const {
+    Cycles earliest = kNever;
+    for (std::uint32_t i = 0; i < spec_.contexts; ++i) earliest = std::min(earliest, awaited_[i]);
+    return earliest;
+  }
+
   // Contexts that a full channel holds up.
   void block(int context) { blocked_ |= std::uint64_t{1} << context; }
   void unblock(int context) { blocked_ &= ~(std::uint64_t{1} << context); }
 
   // Contexts whose step waits for lines.
-  void park(int context) { parked_ |= std::uint64_t{1} << context; }
+  void park(int context, Cycles earliest_line) {
+    parked_ |= std::uint64_t{1} << context;
+    await(context, earliest_line);
+  }
   void unpark(int context, Cycles now) {
     parked_ &= ~(std::uint64_t{1} << context);
+    answered(context);
     ++pipeline_stats_.num_reissues;
     schedule(context, now);
   }
@@ -131,6 +166,14 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   const std::uint32_t slots_per_step_;
 
  private:
+  [[nodiscard]] Cycles safe_until() {
+    const Cycles others = domain_.horizon();
+    // A blocked context may be let go at any time.
+    if (blocked_ != 0 || others == 0 || domain_.in_step()) return others;
+    const Cycles input = static_cast<Derived&>(*this).earliest_input(others);
+    return std::min(std::max(others, input), domain_.end());
+  }
+
   void act(Cycles now) {
     account(now);
     auto& self = static_cast<Derived&>(*this);
@@ -138,13 +181,22 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     for (std::uint64_t left = blocked_; left != 0; left &= left - 1) {
       self.ready(std::countr_zero(left), now);
     }
-    while (wheel_.peek() == now) self.ready(static_cast<int>(wheel_.pop(now)), now);
+    while (wheel_.peek() == now) {
+      self.ready(static_cast<int>(wheel_.pop(now)), now);
+      if (held_back_) return;  // the rest of this cycle waits with it
+    }
     if (num_ready_ != 0 && port_free_ <= now) {
       const int context = ready_queue_[first_ready_];
       first_ready_ = (first_ready_ + 1) % ready_queue_.size();
       --num_ready_;
       self.issue(context, now);
     }
+  }
+
+  static constexpr std::array<Cycles, 64> never_awaited() {
+    std::array<Cycles, 64> awaited{};
+    awaited.fill(kNever);
+    return awaited;
   }
 
   void occupy_for(int context, Cycles taken, Cycles latency, Cycles now) {
@@ -178,6 +230,10 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   std::uint64_t held_ = 0;
   std::uint64_t blocked_ = 0;
   std::uint64_t parked_ = 0;
+  std::array<Cycles, 64> awaited_ = never_awaited();
+  bool held_back_ = false;
+  bool resumes_ = false;  ///< goes on with the cycle in which it was held back
+  Cycles latest_ = 0;     ///< everything up to this cycle has been done
   Cycles port_free_ = 0;
   Cycles busy_until_ = 0;
   PipelineStats pipeline_stats_;

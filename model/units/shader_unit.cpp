@@ -30,7 +30,7 @@ ShaderUnit::ShaderUnit(const sc_core::sc_module_name& name, const UnitSpec& spec
 }
 
 void ShaderUnit::end_of_elaboration() {
-  in_packets->set_consumer(inbox_);
+  packets_.bind(in_packets, inbox_);
   in_attribute_lines->set_consumer(inbox_);
   if (textures_) in_texture_lines->set_consumer(inbox_);
 }
@@ -47,10 +47,9 @@ Cycles ShaderUnit::accept_inputs(Cycles now) {
     }
     next = std::min(next, in_texture_lines->next_arrival());
   }
-  while (has_free_context() && in_packets->has_arrived(now)) {
-    accept_packet(in_packets->read(now), now);
-  }
-  return has_free_context() ? std::min(next, in_packets->next_arrival()) : next;
+  RayPacket* packet = nullptr;
+  while (has_free_context() && packets_.read(packet, now)) accept_packet(packet, now);
+  return has_free_context() ? std::min(next, packets_.next_arrival()) : next;
 }
 
 void ShaderUnit::accept_packet(RayPacket* packet, Cycles now) {
@@ -140,7 +139,7 @@ void ShaderUnit::issue(int number, Cycles now) {
     const Cycles hit_latency = texels ? textures_->hit_latency() : attributes_.hit_latency();
     occupy_fetch(number, hit_latency, outcome.lookups, now);
   } else {
-    park(number);
+    park(number, now);
     occupy_missed(outcome.lookups, now);
   }
 }
@@ -183,7 +182,7 @@ void ShaderUnit::send_output(int number, Cycles now) {
   unblock(number);
   retire(context, spawned, reserved, now);
   free_context(number);
-  inbox_.set_next(std::min(inbox_.next(), std::max(in_packets->next_arrival(), now + 1)));
+  inbox_.set_next(std::min(inbox_.next(), std::max(packets_.next_arrival(), now + 1)));
 }
 
 void ShaderUnit::retire(Context& context, std::uint64_t spawned, std::uint64_t reserved_after,

@@ -11,6 +11,7 @@
 #include "traversal/packet_pool.h"
 #include "units/flow_control.h"
 #include "units/line_fetcher.h"
+#include "units/link_choice.h"
 #include "units/messages.h"
 #include "units/multi_context_unit.h"
 #include "units/ray_counts.h"
@@ -44,7 +45,7 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
              const ShadedScene& scene, ClockDomain& domain, TimedOut<LineRequest>& memory,
              std::uint16_t attribute_requester, std::uint16_t texture_requester);
 
-  sc_core::sc_port<TimedIn<RayPacket*>> in_packets;
+  sc_core::sc_port<TimedIn<RayPacket*>, 0> in_packets;  ///< one per traversal unit
   sc_core::sc_port<TimedIn<LineResponse>> in_attribute_lines;
   sc_core::sc_port<TimedIn<LineResponse>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> in_texture_lines;
   sc_core::sc_port<TimedOut<FilmBatch*>> out_film;
@@ -75,6 +76,8 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   void accept_packet(RayPacket* packet, Cycles now);
   void ready(int context, Cycles now);
   void issue(int context, Cycles now);
+  // Never runs ahead: it changes what flow control counts.
+  [[nodiscard]] static Cycles earliest_input(Cycles others) { return others; }
   void begin_phase(int number, Phase phase);
   void list_lines(Context& context);
   void prepare_output(Context& context);
@@ -82,6 +85,7 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   void retire(Context& context, std::uint64_t spawned, std::uint64_t reserved_after, Cycles now);
 
   const ShadedScene scene_;
+  MergedInput<RayPacket*> packets_;
   PrivateCache attributes_;
   LineFetcher attribute_fetcher_;
   std::optional<PrivateCache> textures_;

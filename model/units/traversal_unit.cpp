@@ -18,8 +18,9 @@ void HeatMaps::add(const RayPacket& packet, const LaneCounts& lanes) {
 
 TraversalUnit::TraversalUnit(const sc_core::sc_module_name& name, const UnitSpec& spec,
                              int packet_size, const CacheSpec& cache, const TracedScene& scene,
-                             HeatMaps* heat, ClockDomain& domain, std::uint16_t number,
-                             TimedOut<LineRequest>& memory, std::uint16_t requester)
+                             const AnswerTimes& times, HeatMaps* heat, ClockDomain& domain,
+                             std::uint16_t number, TimedOut<LineRequest>& memory,
+                             std::uint16_t requester)
     : MultiContextUnit(name, spec, packet_size, domain),
       in_packets("in_packets"),
       in_done("in_done"),
@@ -28,6 +29,7 @@ TraversalUnit::TraversalUnit(const sc_core::sc_module_name& name, const UnitSpec
       out_packets("out_packets"),
       out_free("out_free"),
       scene_(scene),
+      times_(times),
       heat_(heat),
       number_(number),
       cache_(cache, memory, requester),
@@ -49,11 +51,19 @@ Cycles TraversalUnit::accept_inputs(Cycles now) {
   while (in_done->has_arrived(now)) {
     const int context = in_done->read(now).context;
     contexts_[static_cast<std::size_t>(context)].phase = Phase::kAnswered;
+    answered(context);
     schedule(context, now);
   }
   // The arbiter sends a packet only for a context that it knows to be free.
   while (in_packets->has_arrived(now)) accept_packet(in_packets->read(now), now);
   return std::min({in_lines->next_arrival(), in_done->next_arrival(), in_packets->next_arrival()});
+}
+
+// Packets come only for a free context; lines and answers only for who has asked for them.
+Cycles TraversalUnit::earliest_input(Cycles others) const {
+  const Cycles message = others == kNever ? kNever : others + times_.link;
+  if (has_free_context()) return message;
+  return std::max(message, earliest_answer());
 }
 
 void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
@@ -122,7 +132,7 @@ void TraversalUnit::issue(int number, Cycles now) {
     context.phase = Phase::kStepIssued;
     occupy(number, slots_per_step_, cache_.hit_latency(), 0, now);
   } else {
-    park(number);
+    park(number, now + times_.line);
     occupy_missed(0, now);
   }
 }
@@ -131,21 +141,27 @@ void TraversalUnit::send_job(int number, Cycles now) {
   const TraceStep& step = contexts_[static_cast<std::size_t>(number)].log
                               [contexts_[static_cast<std::size_t>(number)].position];
   const LeafJob job{step.node, step.num_tests, number_, static_cast<std::uint16_t>(number)};
-  if (jobs_.write(job, now, inbox_)) {
-    unblock(number);
-  } else {
-    block(number);
+  switch (jobs_.write(job, now, is_certain(now), inbox_)) {
+    case Sent::kYes:
+      unblock(number);
+      await(number, now + times_.leaf_fixed + step.num_tests * times_.leaf_test);
+      return;
+    case Sent::kNo: block(number); return;
+    case Sent::kUnknown: hold_back(number, now); return;
   }
 }
 
 void TraversalUnit::send_packet(int number, Cycles now) {
-  if (!packets_.write(contexts_[static_cast<std::size_t>(number)].packet, now, inbox_)) {
-    block(number);
-    return;
+  RayPacket* packet = contexts_[static_cast<std::size_t>(number)].packet;
+  switch (packets_.write(packet, now, is_certain(now), inbox_)) {
+    case Sent::kYes:
+      unblock(number);
+      free_context(number);
+      out_free->write_ahead({number_}, now, number_);
+      return;
+    case Sent::kNo: block(number); return;
+    case Sent::kUnknown: hold_back(number, now); return;
   }
-  unblock(number);
-  free_context(number);
-  out_free->nb_write({number_}, now);
 }
 
 std::string TraversalUnit::stuck_reason() const {

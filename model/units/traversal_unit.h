@@ -10,7 +10,7 @@
 #include "units/line_fetcher.h"
 #include "units/messages.h"
 #include "units/multi_context_unit.h"
-#include "units/round_robin.h"
+#include "units/link_choice.h"
 
 namespace sheaf {
 
@@ -20,6 +20,14 @@ struct TracedScene {
   const std::vector<TriangleRecord>& triangles;
   const MemoryMap& memory;
   TraversalScheme scheme;
+};
+
+/// Lower bounds on when answers come, from which a unit knows how far it may run ahead.
+struct AnswerTimes {
+  Cycles link = 1;        ///< latency of a link between units
+  Cycles line = 2;        ///< from a request for a line to its arrival
+  Cycles leaf_fixed = 2;  ///< of a leaf job, from sending to the answer's arrival, without tests
+  Cycles leaf_test = 1;   ///< for each test
 };
 
 /// Per-pixel counters for heat maps; empty vectors where none is asked for.
@@ -40,9 +48,9 @@ struct HeatMaps {
 class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
  public:
   TraversalUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
-                const CacheSpec& cache, const TracedScene& scene, HeatMaps* heat,
-                ClockDomain& domain, std::uint16_t number, TimedOut<LineRequest>& memory,
-                std::uint16_t requester);
+                const CacheSpec& cache, const TracedScene& scene, const AnswerTimes& times,
+                HeatMaps* heat, ClockDomain& domain, std::uint16_t number,
+                TimedOut<LineRequest>& memory, std::uint16_t requester);
 
   sc_core::sc_port<TimedIn<RayPacket*>> in_packets;
   sc_core::sc_port<TimedIn<LeafDone>> in_done;
@@ -71,11 +79,13 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   void accept_packet(RayPacket* packet, Cycles now);
   void ready(int context, Cycles now);
   void issue(int context, Cycles now);
+  [[nodiscard]] Cycles earliest_input(Cycles others) const;
   void begin_step(int context, Cycles now);
   void send_job(int context, Cycles now);
   void send_packet(int context, Cycles now);
 
   const TracedScene scene_;
+  const AnswerTimes times_;
   HeatMaps* heat_;
   const std::uint16_t number_;
   PrivateCache cache_;

@@ -21,9 +21,8 @@ ExrImage read_exr(const std::filesystem::path& path) {
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
     std::vector<float>& pixels = image.channels[channel.name()];
     pixels.resize(std::size_t{image.width} * image.height);
-    frame.insert(channel.name(),
-                 Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), sizeof(float),
-                            sizeof(float) * image.width));
+    frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()),
+                                            sizeof(float), sizeof(float) * image.width));
   }
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);

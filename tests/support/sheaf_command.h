@@ -7,18 +7,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace sheaf::test {
 
 struct CommandResult {
-  int exit_code = -1;           ///< 128 + n if signal n ended it
-  std::string out;              ///< standard output
-  std::string err;              ///< standard error
-  std::uint64_t peak_bytes = 0; ///< most resident memory; at least this process's own
+  int exit_code = -1;            ///< 128 + n if signal n ended it
+  std::string out;               ///< standard output
+  std::string err;               ///< standard error
+  std::uint64_t peak_bytes = 0;  ///< most resident memory; at least this process's own
 };
 
 /// Runs the sheaf command that was built with this test and waits for its end. `meanwhile` is

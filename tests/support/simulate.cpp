@@ -150,7 +150,10 @@ TestScene::TestScene(const std::filesystem::path& file, Settings base)
 Outcome TestScene::run(const Settings& settings) const {
   Settings all = base_;
   all.insert(all.end(), settings.begin(), settings.end());
-  const Config config = resolve_config({}, all);
+  return run(resolve_config({}, all));
+}
+
+Outcome TestScene::run(const Config& config) const {
   check_same_scene(config_, config);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   if (file == nullptr) throw std::runtime_error("no temporary file");

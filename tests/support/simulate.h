@@ -4,10 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "config/config.h"
 #include "geometry/vec.h"
@@ -41,6 +40,9 @@ class TestScene {
 
   /// Simulates with `settings` on top of the base.
   [[nodiscard]] Outcome run(const Settings& settings = {}) const;
+
+  /// Simulates with a configuration that need not be one that the reader accepts.
+  [[nodiscard]] Outcome run(const Config& config) const;
 
   [[nodiscard]] const PreparedScene& prepared() const { return prepared_; }
   [[nodiscard]] const Config& base() const { return config_; }

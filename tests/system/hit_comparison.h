@@ -18,60 +18,69 @@ namespace sheaf::test {
 
 /// Traces rays in masked packets as the machine does and holds every hit against Embree's.
 ///
-/// Two distances agree if they differ by at most kFewUlps float ulps of the largest of t and the
-/// coordinates (relative to the ray's origin) of the triangles' corners: both tests subtract the
-/// origin from the corners in single precision first, so that their error is relative to those.
+/// Both first subtract the ray's origin from a triangle's corners and compute in single precision
+/// from there, so that an error of a few ulps of the largest of these coordinates, here "a
+/// rounding", is in the nature of either. A triangle's plane follows from its edges, so that its
+/// distance along the ray is uncertain by a rounding times
+///   condition = longest edge squared / twice the area as seen along the ray,
+/// which is about 1 for a regular triangle that faces the ray and large for slivers and at grazing
+/// angles. Distances agree if they differ by no more than that.
 ///
-/// Two answers that name different triangles, or of which one is a miss, are explained only if both
-/// are right for a ray that is moved by rounding: the ray passes each triangle that is named within
-/// kFewUlps ulps of the corners (in the plane across the ray), in double precision; and if both
-/// name one, the distances agree. So the point that was hit lies on both: on a shared edge or
-/// vertex, where two triangles cross or overlap, or, with a miss, on the border of the mesh.
+/// Where the answers name different triangles, or one is a miss, each triangle named must contain
+/// the ray in double precision or miss it by a rounding, and
+///   shared edge or corner   the distances agree, and the triangles have a corner in common
+///   overlap                 the distances agree, but they have none in common: surfaces that cross
+///                           or lie upon each other (of equal t, Sheaf takes the lower number)
+///   silhouette              the ray passes an edge of the nearer triangle by a rounding, and the
+///                           surface does not go on behind that edge, so that it may miss it
+/// Any other difference is unexplained. A ray that slips through between two neighbours is one.
 class HitComparison {
  public:
-  static constexpr float kFewUlps = 4.0F;
+  static constexpr double kFewUlps = 4.0;  ///< a rounding
+
+  static constexpr int kPacketSize = 16;
 
   struct Tally {
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;
-    std::uint64_t inexact_t = 0;    ///< same triangle, t differs but agrees
-    float most_ulps = 0.0F;         ///< largest difference of t between equal triangles
-    std::uint64_t explained = 0;    ///< other triangle, explained
-    std::uint64_t shared_edge = 0;  ///< of these: triangles that have a corner in common
-    std::uint64_t overlap = 0;      ///< of these: no corner in common, both at the same point
-    std::uint64_t border = 0;       ///< of these: one a miss
+    std::uint64_t inexact_t = 0;  ///< same triangle, not the same t
+    double most_ulps = 0.0;       ///< largest difference of t of these, over condition, in ulps
+    std::map<std::string, std::uint64_t> explained;
     std::uint64_t unexplained = 0;
   };
 
-  explicit HitComparison(const std::filesystem::path& scene);
+  HitComparison(const std::filesystem::path& scene, const Config& config);
 
   /// Rays from points in and around the scene's box in all directions.
   void random_rays(std::uint64_t count);
-  /// At least `count` camera rays, and at least as many rays spawned by the shader at what the
-  /// camera rays and their successors hit.
+  /// At least `count` camera rays, and at least as many that the shader spawned at their hits.
   void primary_and_secondary_rays(std::uint64_t count);
 
-  /// By kind: "random", "primary", "secondary" (reflection, refraction), "shadow".
+  /// By kind: "random", "primary" and "secondary".
   [[nodiscard]] const std::map<std::string, Tally>& tallies() const { return tallies_; }
-  void print(std::ostream& out) const;
+  /// Tallies, and the first few rays of each explanation.
+  [[nodiscard]] std::string text() const;
 
  private:
-  struct Answer {
-    std::uint32_t triangle = kNoHit;
-    float t = 0.0F;
-  };
-  void trace_and_compare(RayPacket& packet);
-  void spawn_and_compare(RayPacket& packet, std::uint32_t levels);
-  void compare(const Ray& ray, const Answer& ours, Tally& tally);
-  void compare_shadow(const Ray& ray, bool occluded, Tally& tally);
-  [[nodiscard]] std::string why_different(const Ray& ray, const Answer& a, const Answer& b) const;
-  void list(const Ray& ray, const Answer& ours, const Answer& theirs, const std::string& why);
+  using Hit = EmbreeOracle::Hit;
+  void follow(RayPacket& packet, const std::string& kind);
+  void trace_and_compare(RayPacket& packet, const std::string& kind);
+  void compare(const Ray& ray, const Hit& ours, const std::string& kind);
+  void compare_shadow(const Ray& ray, std::uint32_t triangle, const std::string& kind);
+  void differ(const Ray& ray, const Hit& ours, const Hit& theirs, const std::string& kind);
+  [[nodiscard]] std::string explanation(const Ray& ray, const Hit& a, const Hit& b) const;
+  [[nodiscard]] bool passes_a_silhouette(const Ray& ray, std::uint32_t triangle) const;
+  [[nodiscard]] bool goes_on(const Ray& ray, std::uint32_t triangle, std::size_t edge) const;
+  [[nodiscard]] bool share_a_corner(std::uint32_t a, std::uint32_t b) const;
+  void list(const Ray& ray, const Hit& ours, const Hit& theirs, const std::string& kind,
+            const std::string& why);
 
   PreparedScene scene_;
   EmbreeOracle embree_;
   PacketShader shader_;
+  PacketPool pool_{kPacketSize};
   std::map<std::string, Tally> tallies_;
-  std::map<std::string, std::vector<std::string>> lists_;  ///< the first few of each explanation
+  std::map<std::string, std::vector<std::string>> lists_;
 };
 
 }  // namespace sheaf::test

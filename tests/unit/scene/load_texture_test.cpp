@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "gltf_builder.h"
+#include "scene/gltf_texture.h"
 
 namespace sheaf::test {
 namespace {
@@ -179,6 +180,22 @@ TEST(LoadTexture, HugeImageIsRefusedBeforeItIsDecoded) {
   expect_refused(file, {"/images/0", "2 x 16385 pixels exceed"});
   file.root["images"][0] = {{"uri", claim(65535, 65535)}};
   expect_refused(file, {"/images/0", "larger than 16384 x 16384"});
+}
+
+TEST(LoadTexture, AllImagesTogetherHaveALimit) {
+  GltfBuilder file = textured();
+  file.root["images"].push_back({{"uri", data_uri(png(5, 1, 9), "image/png")}});
+  file.root["textures"].push_back({{"source", 1}});
+  const TempFolder folder;
+  write_bytes(folder.path() / "scene.glb", file.glb());
+  gltf::Document document = gltf::open_document(folder.path() / "scene.glb");
+  std::vector<Texture> textures;
+  gltf::TextureReader enough(document, textures, 2 * 3 + 5);
+  EXPECT_EQ(enough.use("", 0), 0);
+  EXPECT_EQ(enough.use("", 1), 1);
+  gltf::TextureReader short_of_one(document, textures, 2 * 3 + 4);
+  EXPECT_EQ(short_of_one.use("", 0), 2);
+  EXPECT_THROW((void)short_of_one.use("", 1), gltf::Refusal);
 }
 
 }  // namespace

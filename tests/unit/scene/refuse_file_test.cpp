@@ -131,18 +131,19 @@ void expect_uri_refused(const std::string& uri, std::string_view word) {
 }
 
 TEST(RefuseFile, UrisThatLeaveTheFolder) {
-  expect_uri_refused("../data.bin", "folder");
-  expect_uri_refused("%2e%2e/data.bin", "folder");
-  expect_uri_refused("..%2Fdata.bin", "folder");
-  expect_uri_refused("sub/../../data.bin", "folder");
-  expect_uri_refused("..\\data.bin", "folder");
-  expect_uri_refused("/etc/hostname", "folder");
+  expect_uri_refused("../data.bin", "scene's folder; put");
+  expect_uri_refused("%2e%2e/data.bin", "scene's folder; put");
+  expect_uri_refused("..%2Fdata.bin", "scene's folder; put");
+  expect_uri_refused("sub/../../data.bin", "scene's folder; put");
+  expect_uri_refused("..\\data.bin", "scene's folder; put");
+  expect_uri_refused("/etc/hostname", "scene's folder; put");
   expect_uri_refused("file:///etc/hostname", "not a file");
   expect_uri_refused("http://example.org/data.bin", "not a file");
   expect_uri_refused("", "not a file name");
   expect_uri_refused("a%00b", "not a file name");
   expect_uri_refused("missing.bin", "no such file");
-  expect_uri_refused(".", "folder");
+  expect_uri_refused("inner/../inner.bin", "scene's folder; put");
+  expect_uri_refused(".", "is a folder");
 }
 
 TEST(RefuseFile, LinksThatLeaveTheFolder) {

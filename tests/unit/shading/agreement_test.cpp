@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "middle_split_tree.h"
 #include "scene_builder.h"
 #include "shading/reference.h"
 #include "shading/reference_hit.h"
@@ -134,7 +135,7 @@ class ShaderPicture {
 /// Largest difference of any channel of any pixel between shader and reference.
 double largest_difference(std::uint32_t recursion_level) {
   const Scene scene = gallery();
-  const KdTree tree = single_leaf(scene);
+  const KdTree tree = MiddleSplitTree(scene).tree;
   const ReferenceTracer reference(scene, tree, {kWidth, kHeight, recursion_level});
   const ShaderPicture picture(scene, tree, recursion_level);
   double largest = 0.0;

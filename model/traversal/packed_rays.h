@@ -9,9 +9,9 @@
 
 namespace sheaf {
 
-/// The rays of one pass through the tree, packed into its first `count` lanes, with what the
-/// kernels need of them computed once. Lanes behind them, up to a whole vector, are inert.
-struct alignas(64) PassRays {
+/// The rays of a packet, packed into the first `count` lanes, with what the kernels need of them
+/// computed once. Lanes behind them, up to a whole vector, are inert.
+struct alignas(64) PackedRays {
   /// What a step across a split plane of one axis reads.
   struct Axis {
     alignas(64) Lanes<float> near_origin;  ///< origin moved back against the direction by the error
@@ -26,7 +26,7 @@ struct alignas(64) PassRays {
   std::array<Lanes<float>, 3> origin;     ///< along the ray's x, y and z
   std::array<Lanes<float>, 3> shear;
   std::array<Lanes<std::uint32_t>, 3> permutation;  ///< axis that is the ray's x, y and z
-  bool same_permutation;                  ///< all rays have the permutation of lane 0
+  std::array<LaneMask, 3> longest;        ///< by axis: the lanes whose z it is
 
   // Results. A hit must have t below `limit`, or equal to it and a lower primitive number.
   Lanes<float> limit;  ///< -infinity once a lane needs no more hits
@@ -38,7 +38,6 @@ struct alignas(64) PassRays {
   LaneMask has_hit;
 
   int count;
-  LaneMask sign;                      ///< bits 0..2: direction signs, if they are the same for all
   Lanes<std::uint8_t> packet_lane;    ///< where each ray stands in its packet
 
   [[nodiscard]] ShearedRay sheared_ray(std::size_t lane) const {

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What a scene does not need is left out, and that changes nothing else: forcing everything in
+// gives the same picture and the same counters for what remains.
+
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+#include "support/scratch_folder.h"
+#include "support/simulate.h"
+#include "support/tiny_gltf.h"
+
+namespace sheaf::test {
+namespace {
+
+const Settings kSmallImage{"image.width=48", "image.height=40", "image.heat_maps=node_visits"};
+
+/// Runs with and without run.keep_all; `left_out` are prefixes of counters that only the latter
+/// may lack.
+void expect_nothing_else_changes(const std::filesystem::path& file, const Settings& settings,
+                                 const std::vector<std::string>& left_out) {
+  Settings base = kSmallImage;
+  base.insert(base.end(), settings.begin(), settings.end());
+  const TestScene scene(file, base);
+  const Outcome lean = scene.run();
+  const Outcome all = scene.run({"run.keep_all=true"});
+  ASSERT_EQ(lean.error + all.error, "");
+  EXPECT_EQ(lean.image, all.image);
+  for (const auto& [path, entry] : lean.stats.items()) {
+    if (path == "system.num_wakes") continue;  // the simulator's work, not the machine's
+    ASSERT_TRUE(all.stats.contains(path)) << path;
+    EXPECT_EQ(entry, all.stats.at(path)) << path;
+  }
+  for (const std::string& prefix : left_out) {
+    EXPECT_EQ(lean.entries({prefix}).size(), 0U) << prefix << " should have been left out";
+    EXPECT_NE(all.entries({prefix}).size(), 0U) << prefix << " should have been forced in";
+  }
+}
+
+TEST(LeavingOut, TexturesChangesNothingElse) {
+  expect_nothing_else_changes(committed_scene("dragon"), {},
+                              {"system.shader_unit0.texture_cache."});
+}
+
+TEST(LeavingOut, RefractionChangesNothingElse) {
+  expect_nothing_else_changes(committed_scene("newtree"), {"render.recursion_level=2"}, {});
+}
+
+TEST(LeavingOut, BouncesChangesNothingElse) {
+  expect_nothing_else_changes(committed_scene("fairy"), {"render.recursion_level=0"}, {});
+}
+
+TEST(LeavingOut, LightsChangesNothingElse) {
+  const ScratchFolder scratch;
+  expect_nothing_else_changes(TinyGltf().write(scratch.path()), {"render.recursion_level=3"}, {});
+}
+
+TEST(LeavingOut, AllSecondaryRaysChangesNothingElse) {
+  const ScratchFolder scratch;
+  expect_nothing_else_changes(TinyGltf().write(scratch.path()), {"render.recursion_level=0"},
+                              {"system.packet_fifo.", "system.ray_cache.",
+                               "system.link.spawned_rays.", "trace.secondary."});
+}
+
+TEST(LeavingOut, AllSecondaryRaysOfTheUnsortedMachineChangesNothingElse) {
+  const ScratchFolder scratch;
+  expect_nothing_else_changes(
+      TinyGltf().write(scratch.path()),
+      {"render.recursion_level=0", "ray_cache.heuristic=none", "flow.control=credits"},
+      {"system.packet_fifo.", "system.spawn_router.", "trace.secondary."});
+}
+
+}  // namespace
+}  // namespace sheaf::test

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+
+// With the exact film the picture is the same bit for bit, and so are the rays, whatever the
+// machine; and the work of masked packets is that of their rays, each traced alone.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "base/random.h"
+#include "support/scenes.h"
+#include "support/simulate.h"
+#include "system/coherence.h"
+
+namespace sheaf::test {
+namespace {
+
+const Settings kSmallExactImage{"image.width=48", "image.height=40", "render.recursion_level=2",
+                                "film.format=exact"};
+
+/// Values of one parameter, or of several that go together.
+using Choices = std::vector<Settings>;
+
+Choices each(const std::string& key, const std::vector<std::string>& values) {
+  Choices choices;
+  for (const std::string& value : values) choices.push_back({key + '=' + value});
+  return choices;
+}
+
+Choices each_unit(const std::string& parameter, const std::vector<std::string>& values) {
+  Choices choices;
+  for (const std::string& value : values) {
+    choices.emplace_back();
+    for (const char* unit : {"traversal_unit", "intersection_unit", "shader_unit"}) {
+      choices.back().push_back(std::string(unit) + '.' + parameter + '=' + value);
+    }
+  }
+  return choices;
+}
+
+/// Everything that must not matter.
+std::vector<Choices> choices() {
+  return {each("ray_cache.heuristic",
+               {"none", "dir", "mdir(24)", "mdir(96)", "fastpos", "pos(1.0)", "opos"}),
+          each("packet.size", {"1", "3", "4", "16", "17", "64"}),
+          each("ray_cache.cells", {"1", "2", "8", "96"}),
+          each("ray_cache.victim", {"fullest", "oldest", "lru"}),
+          each("ray_cache.timeout", {"0", "100"}),
+          each("packet_fifo.depth", {"1", "16"}),
+          each("link.depth", {"1", "8"}),
+          each_unit("count", {"1", "4"}),
+          each_unit("contexts", {"1", "8"}),
+          each("flow.control", {"tile", "credits"}),
+          each("flow.tile_size", {"8", "16", "64"}),
+          each("packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}),
+          each("traversal.scheme", {"single", "masked"}),
+          each("run.fidelity", {"timed", "functional"})};
+}
+
+void expect_same(const Outcome& outcome, const Outcome& first, const Settings& settings) {
+  ASSERT_EQ(outcome.error, "") << testing::PrintToString(settings);
+  EXPECT_TRUE(outcome.complete) << testing::PrintToString(settings);
+  ASSERT_EQ(outcome.image.size(), first.image.size());
+  EXPECT_EQ(
+      std::memcmp(outcome.image.data(), first.image.data(), first.image.size() * sizeof(Vec3)), 0)
+      << "another picture with " << testing::PrintToString(settings);
+  EXPECT_EQ(outcome.entries({"rays."}), first.entries({"rays."}))
+      << testing::PrintToString(settings);
+}
+
+class SameImage : public testing::TestWithParam<const char*> {
+ protected:
+  const TestScene scene_{committed_scene(GetParam()), kSmallExactImage};
+};
+
+TEST_P(SameImage, WhateverOneParameterIs) {
+  const Outcome first = scene_.run();
+  ASSERT_EQ(first.error, "");
+  ASSERT_GT(first.count("rays.num_hits"), 500U);
+  for (const Choices& parameter : choices()) {
+    for (const Settings& settings : parameter) expect_same(scene_.run(settings), first, settings);
+  }
+}
+
+TEST_P(SameImage, WhateverTheParametersAreTogether) {
+  constexpr int kMachines = 16;
+  const Outcome first = scene_.run();
+  Random random(2026);
+  for (int i = 0; i < kMachines; ++i) {
+    Settings settings;
+    for (const Choices& parameter : choices()) {
+      const Settings& choice = parameter[random.below(parameter.size())];
+      settings.insert(settings.end(), choice.begin(), choice.end());
+    }
+    expect_same(scene_.run(settings), first, settings);
+  }
+}
+
+using MaskedTraversal = SameImage;
+
+TEST_P(MaskedTraversal, HasAsManyActiveLanesAsItsRaysHaveVisitsAlone) {
+  CoherencePass alone(scene_.base(), scene_.prepared());
+  alone.run();
+  for (const char* heuristic : {"none", "dir", "mdir(24)", "fastpos", "pos(1.0)", "opos"}) {
+    const std::string sorted = std::string("ray_cache.heuristic=") + heuristic;
+    const Outcome masked = scene_.run({sorted, "traversal.scheme=masked"});
+    const Outcome single = scene_.run({sorted, "traversal.scheme=single"});
+    ASSERT_EQ(masked.error + single.error, "");
+    for (const char* counter : {"lane_inner_visits", "lane_leaf_visits", "lane_triangle_tests"}) {
+      for (const char* rays : {"trace.primary.", "trace.secondary."}) {
+        const std::string path = std::string(rays) + counter;
+        EXPECT_EQ(masked.count(path), single.count(path)) << heuristic << ' ' << path;
+      }
+    }
+    EXPECT_EQ(masked.count("trace.primary.lane_inner_visits"), alone.primary().s_t);
+    EXPECT_EQ(masked.count("trace.primary.lane_triangle_tests"), alone.primary().i_t);
+    EXPECT_EQ(masked.count("trace.secondary.lane_inner_visits"), alone.secondary().s_t);
+    EXPECT_EQ(masked.count("trace.secondary.lane_triangle_tests"), alone.secondary().i_t);
+    // Else the comparison would be of a packet of one with itself.
+    EXPECT_LT(masked.count("trace.primary.packet_inner_visits"), alone.primary().s_t);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Committed, SameImage, testing::ValuesIn(kCommittedScenes),
+                         [](const auto& scene) { return std::string(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Committed, MaskedTraversal, testing::ValuesIn(kCommittedScenes),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+}  // namespace
+}  // namespace sheaf::test
