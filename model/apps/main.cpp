@@ -95,8 +95,8 @@ int sc_main(int argc, char** argv) {
     return report_error(sheaf::ExitCode::kUsage,
                         "out of memory; choose a smaller picture or scene");
   } catch (const std::exception& error) {
-    return report_error(sheaf::ExitCode::kBug,
-                        fmt::format("bug of the simulator, please report it: {}", error.what())
-                            .c_str());
+    return report_error(
+        sheaf::ExitCode::kBug,
+        fmt::format("bug of the simulator, please report it: {}", error.what()).c_str());
   }
 }

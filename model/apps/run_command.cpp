@@ -28,7 +28,9 @@ namespace sheaf {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-void on_interrupt(int /*signal*/) { interrupted = 1; }
+void on_interrupt(int /*signal*/) {
+  interrupted = 1;
+}
 
 Vec3 to_vec(const Triple& t) {
   return {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)};
@@ -127,8 +129,8 @@ int run_command(const RunOptions& options) {
   }
   stats.add("run.complete", complete ? 1 : 0, "1", "1 if the frame is complete, 0 if partial");
 
-  const std::string summary = summarize(
-      {config, plan, stats, complete, {load_seconds, build_seconds, run_seconds}});
+  const std::string summary =
+      summarize({config, plan, stats, complete, {load_seconds, build_seconds, run_seconds}});
   folder.write("config.toml", config_toml(config, Comments::kMeanings));
   write_images(config, frame, folder);
   folder.write("summary.txt", summary);

@@ -10,12 +10,12 @@ namespace sheaf {
 /// Exit codes of the sheaf command; `sheaf --help` prints this list.
 enum class ExitCode : int {
   kOk = 0,
-  kBug = 1,          ///< a conservation check failed: a bug of the simulator
-  kUsage = 2,        ///< command line or configuration refused
-  kScene = 3,        ///< scene file refused
-  kOutput = 4,       ///< a result could not be written
-  kStuck = 5,        ///< the configured machine can make no progress
-  kInterrupted = 130 ///< stopped by the user; partial results are marked as such
+  kBug = 1,           ///< a conservation check failed: a bug of the simulator
+  kUsage = 2,         ///< command line or configuration refused
+  kScene = 3,         ///< scene file refused
+  kOutput = 4,        ///< a result could not be written
+  kStuck = 5,         ///< the configured machine can make no progress
+  kInterrupted = 130  ///< stopped by the user; partial results are marked as such
 };
 
 /// An error that the user can mend. `what()` is one line: the place, what is wrong, the remedy.

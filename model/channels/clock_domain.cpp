@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channels/clock_domain.h"
 
-
 namespace sheaf {
 namespace {
 

@@ -32,8 +32,8 @@ class Agent {
 /// Units meet only through channels whose latency is at least one cycle, so agents due in the same
 /// cycle do not see each other's doing and their order is that of their registration. An agent may
 /// run ahead of the calendar to just below the next time at which any other agent is due, and
-/// further to just below the earliest time at which anything can reach it. The SystemC kernel is entered when another SystemC process has something
-/// to do, not once for every hand-over.
+/// further to just below the earliest time at which anything can reach it. The SystemC kernel is
+/// entered when another SystemC process has something to do, not once for every hand-over.
 class ClockDomain : public sc_core::sc_module {
  public:
   /// `period`: one clock cycle.
@@ -69,7 +69,8 @@ class ClockDomain : public sc_core::sc_module {
   /// The inverse: the cycle that lies `offset` after the time at which this domain was entered,
   /// rounded up.
   [[nodiscard]] Cycles cycle_at(const sc_core::sc_time& offset) const;
-  /// The same for a caller outside the domain: the cycle that lies `offset` after the kernel's time.
+  /// The same for a caller outside the domain: the cycle that lies `offset` after the kernel's
+  /// time.
   [[nodiscard]] Cycles cycle_at_kernel_offset(const sc_core::sc_time& offset) const;
 
   /// Called by whoever notified a SystemC event from within an agent: the kernel has to be asked

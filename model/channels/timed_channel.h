@@ -48,6 +48,9 @@ class TimedIn : public virtual sc_core::sc_interface {
 template <typename T>
 class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public TimedIn<T> {
  public:
+  /// For a link that another rule keeps from filling up; it counts no credits.
+  static constexpr std::size_t kUnbounded = ~std::size_t{0};
+
   struct Spec {
     std::size_t capacity = 1;  ///< values, >= 1
     Cycles latency = 1;        ///< cycles, >= 1
@@ -61,10 +64,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   [[nodiscard]] std::size_t num_free(Cycles now) override {
-    while (num_returning_ != 0 && returning_[first_returning_] <= now) {
-      first_returning_ = (first_returning_ + 1) & (returning_.size() - 1);
-      --num_returning_;
-    }
+    drop_returned(now);
     return spec_.capacity - size_ - num_returning_;
   }
 
@@ -91,6 +91,10 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   void notify_when_free(Inbox& producer) override {
+    if (num_returning_ != 0) {  // the read has happened already, its credit is on the way
+      producer.nudge(returning_[first_returning_]);
+      return;
+    }
     for (const Inbox* waiting : waiting_) {
       if (waiting == &producer) return;
     }
@@ -105,7 +109,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     head_ = (head_ + 1) & (ring_.size() - 1);
     --size_;
     update_head();
-    if (spec_.capacity <= kMostCredits) return_credit(now + spec_.latency);
+    if (spec_.capacity != kUnbounded) return_credit(now + spec_.latency);
     return value;
   }
 
@@ -126,9 +130,12 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     }
   };
   static constexpr std::size_t kFirstSlots = 16;
-  // A channel with room for more than that is one that nothing can fill; it counts no credits.
-  static constexpr std::size_t kMostCredits = std::size_t{1} << 24;
-
+  void drop_returned(Cycles now) {
+    while (num_returning_ != 0 && returning_[first_returning_] <= now) {
+      first_returning_ = (first_returning_ + 1) & (returning_.size() - 1);
+      --num_returning_;
+    }
+  }
   void return_credit(Cycles arrival) {
     if (num_returning_ == returning_.size()) {
       std::vector<Cycles> larger(returning_.empty() ? kFirstSlots : returning_.size() * 2);

@@ -123,7 +123,7 @@ class TimingWheel {
     occupied_[slot / 64] &= ~(std::uint64_t{1} << (slot % 64));
   }
 
-  Cycles base_ = 0;             ///< no pending time is earlier
+  Cycles base_ = 0;  ///< no pending time is earlier
   Cycles far_min_ = kNever;
   std::array<std::uint64_t, kSlots / 64> occupied_{};
   std::array<std::uint64_t, kSlots> slots_{};

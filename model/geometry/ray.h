@@ -16,18 +16,18 @@ inline constexpr int kNumRayKinds = 4;
 
 /// What one ray carries through the machine besides its geometry.
 struct RayTag {
-  std::uint64_t id = 0;        ///< function of pixel and path only
-  std::uint32_t pixel = 0;     ///< row × width + column
-  std::uint8_t depth = 0;      ///< primary 0
+  std::uint64_t id = 0;     ///< function of pixel and path only
+  std::uint32_t pixel = 0;  ///< row × width + column
+  std::uint8_t depth = 0;   ///< primary 0
   RayKind kind = RayKind::kPrimary;
 };
 
 /// One ray outside a packet: as it is spawned, waits in the ray cache and is recorded.
 struct Ray {
   Vec3 origin{0.0F};
-  float t_max = 0.0F;          ///< shadow rays: distance to the light; else infinity
-  Vec3 direction{0.0F};        ///< unit for reflection and refraction; shadow rays: unit
-  Vec3 weight{0.0F};           ///< RGB that multiplies what the ray finds
+  float t_max = 0.0F;    ///< shadow rays: distance to the light; else infinity
+  Vec3 direction{0.0F};  ///< unit for reflection and refraction; shadow rays: unit
+  Vec3 weight{0.0F};     ///< RGB that multiplies what the ray finds
   RayTag tag;
 };
 

@@ -31,7 +31,7 @@ struct TriangleHit {
 
 /// The part of a ray that the test needs: z is the axis along which the direction is longest.
 struct ShearedRay {
-  std::size_t x, y, z;              ///< axes; a cyclic permutation
+  std::size_t x, y, z;  ///< axes; a cyclic permutation
   float origin_x, origin_y, origin_z;
   float shear_x, shear_y, shear_z;  ///< d[x] / d[z], d[y] / d[z], 1 / d[z]
 
@@ -57,11 +57,14 @@ struct ShearedRay {
     const float az = corners[z] - origin_z;
     const float bz = corners[3 + z] - origin_z;
     const float cz = corners[6 + z] - origin_z;
-    return {(corners[x] - origin_x) - shear_x * az,     (corners[y] - origin_y) - shear_y * az,
+    return {(corners[x] - origin_x) - shear_x * az,
+            (corners[y] - origin_y) - shear_y * az,
             shear_z * az,
-            (corners[3 + x] - origin_x) - shear_x * bz, (corners[3 + y] - origin_y) - shear_y * bz,
+            (corners[3 + x] - origin_x) - shear_x * bz,
+            (corners[3 + y] - origin_y) - shear_y * bz,
             shear_z * bz,
-            (corners[6 + x] - origin_x) - shear_x * cz, (corners[6 + y] - origin_y) - shear_y * cz,
+            (corners[6 + x] - origin_x) - shear_x * cz,
+            (corners[6 + y] - origin_y) - shear_y * cz,
             shear_z * cz};
   }
 };

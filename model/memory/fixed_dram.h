@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tlm>
 #include <tlm_utils/simple_target_socket.h>
+
+#include <tlm>
 
 #include "base/units.h"
 #include "config/config.h"
@@ -11,13 +12,13 @@
 
 namespace sheaf {
 
-#define SHEAF_DRAM_COUNTERS(X)                                                               \
-  X(num_reads, "requests", "Read requests")                                                 \
-  X(num_writes, "requests", "Write requests")                                               \
-  X(bytes_read, "bytes", "Bytes read")                                                      \
-  X(bytes_written, "bytes", "Bytes written")                                                \
-  X(bus_busy_cycles, "cycles", "Cycles in which the data bus moved data")                   \
-  X(sum_read_latency, "cycles", "Read latencies, request to last byte, summed")             \
+#define SHEAF_DRAM_COUNTERS(X)                                                  \
+  X(num_reads, "requests", "Read requests")                                     \
+  X(num_writes, "requests", "Write requests")                                   \
+  X(bytes_read, "bytes", "Bytes read")                                          \
+  X(bytes_written, "bytes", "Bytes written")                                    \
+  X(bus_busy_cycles, "cycles", "Cycles in which the data bus moved data")       \
+  X(sum_read_latency, "cycles", "Read latencies, request to last byte, summed") \
   X(max_read_latency, "cycles", "Longest read latency")
 SHEAF_STATS(DramStats, SHEAF_DRAM_COUNTERS);
 

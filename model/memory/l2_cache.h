@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <array>
@@ -11,6 +10,7 @@
 #include <memory>
 #include <queue>
 #include <string>
+#include <tlm>
 #include <vector>
 
 #include "channels/timed_channel.h"
@@ -23,24 +23,24 @@
 namespace sheaf {
 
 // Every read request ends as exactly one of hit, miss or merge; writes as hit or miss.
-#define SHEAF_L2_COUNTERS(X)                                                                  \
-  X(num_accesses, "requests", "Requests taken by a bank")                                    \
-  X(num_hits, "requests", "Requests that found their line")                                  \
-  X(num_misses, "requests", "Requests passed on to DRAM")                                    \
-  X(num_merges, "requests", "Requests for a line that was on its way already")               \
-  X(num_mshr_stalls, "events", "Times a bank's first request had to wait for a free MSHR")   \
-  X(num_writebacks, "lines", "Modified lines written to DRAM to make room")                  \
-  X(bank_wait_cycles, "cycles", "Cycles that requests waited for their bank, summed")        \
-  X(bytes_requested, "bytes", "Bytes asked for by private caches")                           \
-  X(bytes_received, "bytes", "Bytes written by private caches")                              \
-  X(bytes_read, "bytes", "Bytes read from DRAM")                                             \
+#define SHEAF_L2_COUNTERS(X)                                                               \
+  X(num_accesses, "requests", "Requests taken by a bank")                                  \
+  X(num_hits, "requests", "Requests that found their line")                                \
+  X(num_misses, "requests", "Requests passed on to DRAM")                                  \
+  X(num_merges, "requests", "Requests for a line that was on its way already")             \
+  X(num_mshr_stalls, "events", "Times a bank's first request had to wait for a free MSHR") \
+  X(num_writebacks, "lines", "Modified lines written to DRAM to make room")                \
+  X(bank_wait_cycles, "cycles", "Cycles that requests waited for their bank, summed")      \
+  X(bytes_requested, "bytes", "Bytes asked for by private caches")                         \
+  X(bytes_received, "bytes", "Bytes written by private caches")                            \
+  X(bytes_read, "bytes", "Bytes read from DRAM")                                           \
   X(bytes_written, "bytes", "Bytes written to DRAM")
 SHEAF_STATS(L2Stats, SHEAF_L2_COUNTERS);
 
-#define SHEAF_L2_KIND_COUNTERS(X)                                                             \
-  X(num_accesses, "requests", "Requests for this kind of data")                               \
-  X(num_hits, "requests", "Of these, found in the L2")                                        \
-  X(bytes_read, "bytes", "Bytes read from DRAM for this kind of data")                        \
+#define SHEAF_L2_KIND_COUNTERS(X)                                      \
+  X(num_accesses, "requests", "Requests for this kind of data")        \
+  X(num_hits, "requests", "Of these, found in the L2")                 \
+  X(bytes_read, "bytes", "Bytes read from DRAM for this kind of data") \
   X(bytes_written, "bytes", "Bytes of this kind that passed the L2 on their way to DRAM")
 SHEAF_STATS(L2KindStats, SHEAF_L2_KIND_COUNTERS);
 
@@ -84,7 +84,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   struct Bank {
     CacheArray array;
     std::deque<Request> queue;
-    std::vector<Mshr> mshrs;       ///< the first num_mshrs are in use
+    std::vector<Mshr> mshrs;  ///< the first num_mshrs are in use
     std::size_t num_mshrs = 0;
     Cycles free_at = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
@@ -128,7 +128,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   unsigned line_shift_;
   unsigned bank_shift_;
   std::vector<Bank> banks_;
-  std::size_t num_queued_ = 0;       ///< requests in all banks' queues
+  std::size_t num_queued_ = 0;  ///< requests in all banks' queues
 
   std::priority_queue<Fill, std::vector<Fill>, std::greater<>> fills_;
   std::uint64_t num_fills_ = 0;

@@ -55,9 +55,9 @@ PrivateCache::Result PrivateCache::miss(std::uint64_t line, DataKind kind, int w
   ++stats_.num_accesses;
   ++stats_.num_misses;
   stats_.bytes_read += spec_.line;
-  requests_.write_ahead({line << line_shift_, static_cast<std::uint32_t>(spec_.line), requester_,
-                         kind, false},
-                        now, requester_);
+  requests_.write_ahead(
+      {line << line_shift_, static_cast<std::uint32_t>(spec_.line), requester_, kind, false}, now,
+      requester_);
   return Result::kPending;
 }
 

@@ -15,14 +15,14 @@
 namespace sheaf {
 
 // Every access ends as exactly one of hit, miss or merge.
-#define SHEAF_CACHE_COUNTERS(X)                                                            \
-  X(num_accesses, "lines", "Line accesses")                                               \
-  X(num_hits, "lines", "Accesses that found their line")                                  \
-  X(num_misses, "lines", "Accesses that sent a request to the next level")                \
-  X(num_merges, "lines", "Accesses to a line that was on its way already")                \
-  X(num_mshr_stalls, "events", "Times an access had to wait for a free MSHR")             \
-  X(num_writebacks, "lines", "Modified lines written to the next level")                  \
-  X(bytes_read, "bytes", "Bytes fetched from the next level")                             \
+#define SHEAF_CACHE_COUNTERS(X)                                               \
+  X(num_accesses, "lines", "Line accesses")                                   \
+  X(num_hits, "lines", "Accesses that found their line")                      \
+  X(num_misses, "lines", "Accesses that sent a request to the next level")    \
+  X(num_merges, "lines", "Accesses to a line that was on its way already")    \
+  X(num_mshr_stalls, "events", "Times an access had to wait for a free MSHR") \
+  X(num_writebacks, "lines", "Modified lines written to the next level")      \
+  X(bytes_read, "bytes", "Bytes fetched from the next level")                 \
   X(bytes_written, "bytes", "Bytes written to the next level")
 SHEAF_STATS(CacheStats, SHEAF_CACHE_COUNTERS);
 

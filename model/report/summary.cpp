@@ -84,8 +84,8 @@ class Summary {
 
   void stalls() {
     section("What the cycles went to, in percent");
-    TextTable table({Align::kLeft, Align::kRight, Align::kRight, Align::kRight, Align::kRight,
-                     Align::kRight});
+    TextTable table(
+        {Align::kLeft, Align::kRight, Align::kRight, Align::kRight, Align::kRight, Align::kRight});
     table.add_row({"", "busy", "input", "memory", "blocked", "idle"});
     for (const StatsEntry& entry : in_.stats.entries()) {
       const std::string suffix = std::string(".") + std::string(kStallInfos[0].name);
@@ -93,7 +93,8 @@ class Summary {
       const std::string unit = entry.path.substr(0, entry.path.size() - suffix.size());
       std::vector<std::string> row{unit.substr(unit.find('.') + 1)};
       for (const CounterInfo& info : kStallInfos) {
-        const double share = 100.0 * static_cast<double>(count(unit + "." + std::string(info.name))) /
+        const double share = 100.0 *
+                             static_cast<double>(count(unit + "." + std::string(info.name))) /
                              static_cast<double>(count("system.cycles"));
         row.push_back(fmt::format("{:.1f}", share));
       }
@@ -106,17 +107,17 @@ class Summary {
     section("Ray cache");
     TextTable table({Align::kLeft, Align::kRight, Align::kLeft});
     const std::string path = "system.ray_cache.";
-    table.add_row({"hit rate", value(path + "hit_rate"),
-                   fmt::format("{} of {} rays", value(path + "num_hits"),
-                               value(path + "num_insertions"))});
+    table.add_row(
+        {"hit rate", value(path + "hit_rate"),
+         fmt::format("{} of {} rays", value(path + "num_hits"), value(path + "num_insertions"))});
     for (const auto& [what, key] :
          {std::pair{"left full", "full"}, std::pair{"left evicted", "evicted"},
           std::pair{"left timed out", "timed_out"}, std::pair{"swept, tile", "swept_tile"},
           std::pair{"swept, frame", "swept_frame"}, std::pair{"swept, stall", "swept_stall"}}) {
       const std::uint64_t packets = count(path + "num_packets_" + key);
       if (packets == 0) continue;
-      const double fill = static_cast<double>(count(path + "num_rays_" + key)) /
-                          static_cast<double>(packets);
+      const double fill =
+          static_cast<double>(count(path + "num_rays_" + key)) / static_cast<double>(packets);
       table.add_row({what, grouped(packets), fmt::format("packets of {:.3g} rays", fill)});
     }
     table.add_row({"mean residence", value(path + "mean_cell_residence"), "cycles"});
@@ -152,20 +153,20 @@ class Summary {
   void cache_row(TextTable& table, const std::string& name, std::uint64_t hits,
                  std::uint64_t accesses, std::uint64_t bytes) {
     if (accesses == 0) return;
-    table.add_row({name, grouped(accesses),
-                   fmt::format("{:.2f} %", 100.0 * static_cast<double>(hits) /
-                                               static_cast<double>(accesses)),
-                   grouped(bytes)});
+    table.add_row(
+        {name, grouped(accesses),
+         fmt::format("{:.2f} %", 100.0 * static_cast<double>(hits) / static_cast<double>(accesses)),
+         grouped(bytes)});
   }
 
   void memory() {
     section("Memory");
     TextTable table({Align::kLeft, Align::kRight, Align::kRight, Align::kRight});
     table.add_row({"", "accesses", "hits", "bytes read below"});
-    for (const auto& [unit, cache] : {std::pair{"traversal_unit", "node_cache"},
-                                      std::pair{"intersection_unit", "triangle_cache"},
-                                      std::pair{"shader_unit", "attribute_cache"},
-                                      std::pair{"shader_unit", "texture_cache"}}) {
+    for (const auto& [unit, cache] :
+         {std::pair{"traversal_unit", "node_cache"},
+          std::pair{"intersection_unit", "triangle_cache"},
+          std::pair{"shader_unit", "attribute_cache"}, std::pair{"shader_unit", "texture_cache"}}) {
       const std::string prefix = std::string(cache) + ".";
       cache_row(table, cache, sum(unit, prefix + "num_hits"), sum(unit, prefix + "num_accesses"),
                 sum(unit, prefix + "bytes_read"));
@@ -202,6 +203,8 @@ class Summary {
 
 }  // namespace
 
-std::string summarize(const SummaryInput& input) { return Summary(input).text(); }
+std::string summarize(const SummaryInput& input) {
+  return Summary(input).text();
+}
 
 }  // namespace sheaf

@@ -52,8 +52,10 @@ std::uint32_t CellSorter::choose_victim() const {
     switch (victim_) {
       case VictimPolicy::kFullest:
         return a.num_rays != b.num_rays ? a.num_rays > b.num_rays : a.opening < b.opening;
-      case VictimPolicy::kOldest: return a.opening < b.opening;
-      case VictimPolicy::kLru: return a.last_use < b.last_use;
+      case VictimPolicy::kOldest:
+        return a.opening < b.opening;
+      case VictimPolicy::kLru:
+        return a.last_use < b.last_use;
     }
     return false;
   };

@@ -21,8 +21,8 @@ class CellSorter final : public RaySorter {
     RayPacket* packet = nullptr;  ///< null: not open
     int num_rays = 0;
     Cycles opened = 0;
-    std::uint64_t opening = 0;    ///< rank of the opening, for the victim policies
-    std::uint64_t last_use = 0;   ///< rank of the last insertion
+    std::uint64_t opening = 0;   ///< rank of the opening, for the victim policies
+    std::uint64_t last_use = 0;  ///< rank of the last insertion
   };
 
   [[nodiscard]] std::uint32_t open_cell(const Ray& ray, Cycles now,

@@ -73,12 +73,18 @@ HeuristicChoice HeuristicChoice::parse(std::string_view text) {
 
 std::string HeuristicChoice::to_string() const {
   switch (kind) {
-    case Kind::kNone: return "none";
-    case Kind::kDir: return "dir";
-    case Kind::kMdir: return fmt::format("mdir({})", x);
-    case Kind::kFastpos: return "fastpos";
-    case Kind::kPos: return fmt::format("pos({})", x);
-    case Kind::kOpos: return "opos";
+    case Kind::kNone:
+      return "none";
+    case Kind::kDir:
+      return "dir";
+    case Kind::kMdir:
+      return fmt::format("mdir({})", x);
+    case Kind::kFastpos:
+      return "fastpos";
+    case Kind::kPos:
+      return fmt::format("pos({})", x);
+    case Kind::kOpos:
+      return "opos";
   }
   return {};
 }
@@ -91,13 +97,17 @@ std::uint32_t HeuristicChoice::natural_cells() const {
 std::unique_ptr<Heuristic> make_heuristic(const HeuristicChoice& choice, std::uint32_t num_cells,
                                           const Box& scene_bounds) {
   switch (choice.kind) {
-    case Kind::kDir: return std::make_unique<DirHeuristic>(num_cells);
+    case Kind::kDir:
+      return std::make_unique<DirHeuristic>(num_cells);
     case Kind::kMdir:
       return std::make_unique<MdirHeuristic>(cube_cells_per_side(choice.x), num_cells);
-    case Kind::kFastpos: return std::make_unique<FastposHeuristic>(scene_bounds, num_cells);
-    case Kind::kPos: return std::make_unique<PosHeuristic>(static_cast<float>(choice.x), num_cells);
+    case Kind::kFastpos:
+      return std::make_unique<FastposHeuristic>(scene_bounds, num_cells);
+    case Kind::kPos:
+      return std::make_unique<PosHeuristic>(static_cast<float>(choice.x), num_cells);
     case Kind::kNone:
-    case Kind::kOpos: break;
+    case Kind::kOpos:
+      break;
   }
   throw std::logic_error("this heuristic has no cells");
 }

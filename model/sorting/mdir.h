@@ -22,8 +22,8 @@ class MdirHeuristic final : public KeyedHeuristic {
     int axis = 0;
     if (length.y > length[axis]) axis = 1;
     if (length.z > length[axis]) axis = 2;
-    const std::uint32_t face = static_cast<std::uint32_t>(axis) * 2 +
-                               (std::signbit(direction[axis]) ? 1U : 0U);
+    const std::uint32_t face =
+        static_cast<std::uint32_t>(axis) * 2 + (std::signbit(direction[axis]) ? 1U : 0U);
     const std::uint32_t u = cell(direction[(axis + 1) % 3], length[axis]);
     const std::uint32_t v = cell(direction[(axis + 2) % 3], length[axis]);
     return (face * k_ + v) * k_ + u;

@@ -21,8 +21,7 @@ void OposSorter::insert(const Ray& ray, Cycles now, std::vector<RayPacket*>& /*d
   stats_.max_rays = std::max<std::uint64_t>(stats_.max_rays, ++num_waiting_);
   const auto open = std::count_if(lists_.begin(), lists_.end(),
                                   [](const auto& waiting) { return !waiting.empty(); });
-  stats_.max_open_cells =
-      std::max(stats_.max_open_cells, static_cast<std::uint64_t>(open));
+  stats_.max_open_cells = std::max(stats_.max_open_cells, static_cast<std::uint64_t>(open));
 }
 
 void OposSorter::sweep(Departure why, Cycles now, std::vector<RayPacket*>& departures) {

@@ -9,8 +9,7 @@
 
 namespace sheaf {
 
-void RaySorter::count_departure(Departure why, const RayPacket& packet, Cycles opened,
-                                Cycles now) {
+void RaySorter::count_departure(Departure why, const RayPacket& packet, Cycles opened, Cycles now) {
   const auto rays = static_cast<std::uint64_t>(std::popcount(packet.active));
   struct Pair {
     std::uint64_t* packets;

@@ -28,35 +28,35 @@ enum class Departure : std::uint8_t {
 inline constexpr int kNumDepartures = 6;
 
 // Every insertion is a hit or a miss; every miss that finds no free cell is also an eviction.
-#define SHEAF_RAY_CACHE_COUNTERS(X)                                                           \
-  X(num_insertions, "rays", "Rays that entered the ray cache")                               \
-  X(num_hits, "rays", "Rays whose cell was open already")                                    \
-  X(num_misses, "rays", "Rays for which a cell was opened")                                  \
-  X(num_evictions, "cells", "Cells closed to make room for another")                         \
-  X(num_packets_full, "packets", "Packets that left because their cell was full")            \
-  X(num_packets_evicted, "packets", "Packets that left because their cell was evicted")      \
+#define SHEAF_RAY_CACHE_COUNTERS(X)                                                             \
+  X(num_insertions, "rays", "Rays that entered the ray cache")                                  \
+  X(num_hits, "rays", "Rays whose cell was open already")                                       \
+  X(num_misses, "rays", "Rays for which a cell was opened")                                     \
+  X(num_evictions, "cells", "Cells closed to make room for another")                            \
+  X(num_packets_full, "packets", "Packets that left because their cell was full")               \
+  X(num_packets_evicted, "packets", "Packets that left because their cell was evicted")         \
   X(num_packets_timed_out, "packets", "Packets that left because their cell was open too long") \
-  X(num_packets_swept_tile, "packets", "Packets swept out at the end of a tile")             \
-  X(num_packets_swept_frame, "packets", "Packets swept out at the end of the frame")         \
-  X(num_packets_swept_stall, "packets",                                                      \
-    "Packets swept out because nothing else could move before they left")                    \
-  X(num_rays_full, "rays", "Rays in packets that left full")                                 \
-  X(num_rays_evicted, "rays", "Rays in packets that left evicted")                           \
-  X(num_rays_timed_out, "rays", "Rays in packets that left timed out")                       \
-  X(num_rays_swept_tile, "rays", "Rays in packets swept at the end of a tile")               \
-  X(num_rays_swept_frame, "rays", "Rays in packets swept at the end of the frame")           \
-  X(num_rays_swept_stall, "rays", "Rays in packets swept because nothing else could move")   \
-  X(sum_cell_residence, "cycles", "Cell residence times, first ray to departure, summed")    \
-  X(max_cell_residence, "cycles", "Longest residence of a cell")                             \
-  X(max_rays, "rays", "Most rays waiting in cells at a time")                                \
+  X(num_packets_swept_tile, "packets", "Packets swept out at the end of a tile")                \
+  X(num_packets_swept_frame, "packets", "Packets swept out at the end of the frame")            \
+  X(num_packets_swept_stall, "packets",                                                         \
+    "Packets swept out because nothing else could move before they left")                       \
+  X(num_rays_full, "rays", "Rays in packets that left full")                                    \
+  X(num_rays_evicted, "rays", "Rays in packets that left evicted")                              \
+  X(num_rays_timed_out, "rays", "Rays in packets that left timed out")                          \
+  X(num_rays_swept_tile, "rays", "Rays in packets swept at the end of a tile")                  \
+  X(num_rays_swept_frame, "rays", "Rays in packets swept at the end of the frame")              \
+  X(num_rays_swept_stall, "rays", "Rays in packets swept because nothing else could move")      \
+  X(sum_cell_residence, "cycles", "Cell residence times, first ray to departure, summed")       \
+  X(max_cell_residence, "cycles", "Longest residence of a cell")                                \
+  X(max_rays, "rays", "Most rays waiting in cells at a time")                                   \
   X(max_open_cells, "cells", "Most cells open at a time")
 SHEAF_STATS(RayCacheCounters, SHEAF_RAY_CACHE_COUNTERS);
 
 struct RayCacheStats : RayCacheCounters {
   /// Packets and rays that left, for whatever reason.
   [[nodiscard]] std::uint64_t num_packets() const {
-    return num_packets_full + num_packets_evicted + num_packets_timed_out +
-           num_packets_swept_tile + num_packets_swept_frame + num_packets_swept_stall;
+    return num_packets_full + num_packets_evicted + num_packets_timed_out + num_packets_swept_tile +
+           num_packets_swept_frame + num_packets_swept_stall;
   }
   [[nodiscard]] std::uint64_t num_rays() const {
     return num_rays_full + num_rays_evicted + num_rays_timed_out + num_rays_swept_tile +

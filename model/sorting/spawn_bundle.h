@@ -33,8 +33,8 @@ struct SpawnBundle {
 inline void split_by_kind(const SpawnBundle& bundle, PacketPool& pool,
                           std::vector<RayPacket*>& packets) {
   for (std::size_t g = 0; g < bundle.group_begins.size(); ++g) {
-    const std::size_t end = g + 1 < bundle.group_begins.size() ? bundle.group_begins[g + 1]
-                                                               : bundle.rays.size();
+    const std::size_t end =
+        g + 1 < bundle.group_begins.size() ? bundle.group_begins[g + 1] : bundle.rays.size();
     if (bundle.group_begins[g] == end) continue;
     RayPacket* packet = pool.acquire();
     for (std::size_t i = bundle.group_begins[g]; i < end; ++i) {

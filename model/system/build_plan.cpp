@@ -14,8 +14,7 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
   };
   const bool bounces = config.render.recursion_level > 0;
   const char* const no_bounces = "the recursion level is 0";
-  plan.shadow_rays =
-      want(needs.lights, "shadow rays and post-shading", "the scene has no lights");
+  plan.shadow_rays = want(needs.lights, "shadow rays and post-shading", "the scene has no lights");
   plan.reflection_rays = want(needs.reflection && bounces, "reflection rays",
                               bounces ? "no material reflects" : no_bounces);
   plan.refraction_rays = want(needs.refraction && bounces, "refraction rays",
@@ -39,8 +38,7 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
   return plan;
 }
 
-SorterOptions sorter_options(const Config& config, const BuildPlan& plan,
-                             const Box& scene_bounds) {
+SorterOptions sorter_options(const Config& config, const BuildPlan& plan, const Box& scene_bounds) {
   SorterOptions options;
   options.heuristic = plan.heuristic;
   options.num_cells =

@@ -17,8 +17,8 @@ struct BuildPlan {
   bool shadow_rays = false;
   bool reflection_rays = false;
   bool refraction_rays = false;
-  bool secondary_rays = false;   ///< any of these: packet FIFO, and ray cache or spawn router
-  bool ray_cache = false;        ///< else, with secondary rays, the spawn router of `none`
+  bool secondary_rays = false;  ///< any of these: packet FIFO, and ray cache or spawn router
+  bool ray_cache = false;       ///< else, with secondary rays, the spawn router of `none`
   bool texture_cache = false;
   HeuristicChoice heuristic;
 

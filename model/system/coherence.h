@@ -12,10 +12,10 @@
 
 namespace sheaf {
 
-#define SHEAF_COHERENCE_COUNTERS(X)                                                           \
-  X(s_t, "nodes", "Inner nodes visited, summed over rays, each traced alone")                 \
-  X(s_u, "nodes", "Distinct inner nodes visited by any ray of a scope, summed over scopes")   \
-  X(i_t, "tests", "Triangle tests, summed over rays, each traced alone")                      \
+#define SHEAF_COHERENCE_COUNTERS(X)                                                         \
+  X(s_t, "nodes", "Inner nodes visited, summed over rays, each traced alone")               \
+  X(s_u, "nodes", "Distinct inner nodes visited by any ray of a scope, summed over scopes") \
+  X(i_t, "tests", "Triangle tests, summed over rays, each traced alone")                    \
   X(i_u, "triangles", "Distinct triangles tested by any ray of a scope, summed over scopes")
 SHEAF_STATS(CoherenceCounts, SHEAF_COHERENCE_COUNTERS);
 

@@ -7,7 +7,9 @@
 namespace sheaf {
 namespace {
 
-std::uint32_t num_pixels(const ImageSpec& image) { return image.width * image.height; }
+std::uint32_t num_pixels(const ImageSpec& image) {
+  return image.width * image.height;
+}
 
 HeatMaps make_heat_maps(const ImageSpec& image) {
   HeatMaps maps;

@@ -130,7 +130,7 @@ void FunctionalPipeline::spawn() {
 bool FunctionalPipeline::sweep() {
   if (!sorter_ || sorter_->num_waiting() == 0) return false;
   departures_.clear();
-  const Departure why = flow_.by_tile()      ? Departure::kSweptTile
+  const Departure why = flow_.by_tile()    ? Departure::kSweptTile
                         : order_.is_done() ? Departure::kSweptFrame
                                            : Departure::kSweptStall;
   sorter_->sweep(why, 0, departures_);

@@ -13,11 +13,13 @@
 namespace sheaf {
 namespace {
 
-// Links that another rule keeps from filling up: credits for contexts and MSHRs, flow control for
+// Links that another rule keeps from filling up: credits for contexts, MSHRs, or flow control for
 // spawned rays.
-constexpr std::size_t kNeverFull = std::size_t{1} << 40;
+constexpr std::size_t kNeverFull = PacketChannel::kUnbounded;
 
-sc_core::sc_time period_of(double frequency) { return {1.0 / frequency, sc_core::SC_SEC}; }
+sc_core::sc_time period_of(double frequency) {
+  return {1.0 / frequency, sc_core::SC_SEC};
+}
 
 // From the fastest path through link, unit and link that nothing holds up.
 AnswerTimes answer_times(const Config& config) {
@@ -55,9 +57,9 @@ Machine::~Machine() = default;
 
 void Machine::build_memory() {
   links_->caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
-      "caches_to_l2", TimedChannel<LineRequest>::Spec{.capacity = kNeverFull,
-                                                      .latency = config_.link.memory_latency,
-                                                      .interval = 0});
+      "caches_to_l2",
+      TimedChannel<LineRequest>::Spec{
+          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
   l2_ = std::make_unique<L2Cache>("l2", config_.l2, domain_);
   dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
   l2_->in_requests(*links_->caches_to_l2);
@@ -71,9 +73,8 @@ std::uint16_t Machine::add_requester(const CacheSpec& cache) {
   const Cycles transfer = (cache.line + config_.link.memory_width - 1) / config_.link.memory_width;
   links.push_back(std::make_unique<TimedChannel<LineResponse>>(
       fmt::format("l2_to_cache_{}", number).c_str(),
-      TimedChannel<LineResponse>::Spec{.capacity = cache.mshrs,
-                                       .latency = config_.link.memory_latency,
-                                       .interval = transfer}));
+      TimedChannel<LineResponse>::Spec{
+          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = transfer}));
   l2_->out_responses(*links.back());
   return number;
 }
@@ -82,8 +83,8 @@ void Machine::build_units() {
   const int packet_size = static_cast<int>(config_.packet.size);
   const TracedScene traced{scene_.tree, scene_.triangles, scene_.memory,
                            scheme_of(config_.traversal_scheme)};
-  const ShadedScene shaded{scene_.scene, shader_, scene_.memory, packets_,
-                           bundles_,     batches_, frame_.rays,  flow_};
+  const ShadedScene shaded{scene_.scene, shader_,  scene_.memory, packets_,
+                           bundles_,     batches_, frame_.rays,   flow_};
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
                         packet_size);
@@ -124,9 +125,9 @@ void Machine::build_units() {
       shader_units_.back()->in_texture_lines(*links_->l2_to_caches.back());
     }
   }
-  film_ = std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory,
-                                     batches_, flow_, domain_, memory,
-                                     add_requester(config_.film_cache));
+  film_ =
+      std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
+                                 flow_, domain_, memory, add_requester(config_.film_cache));
   film_->in_lines(*links_->l2_to_caches.back());
 }
 
@@ -141,9 +142,9 @@ void Machine::build_regrouper() {
       TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
   if (plan_.ray_cache) {
     const SorterOptions options = sorter_options(config_, plan_, scene_.scene.bounds);
-    ray_cache_ = std::make_unique<RayCacheUnit>(
-        "ray_cache", config_.ray_cache, make_sorter(options, scene_.scene.bounds, packets_),
-        bundles_, flow_, domain_);
+    ray_cache_ = std::make_unique<RayCacheUnit>("ray_cache", config_.ray_cache,
+                                                make_sorter(options, scene_.scene.bounds, packets_),
+                                                bundles_, flow_, domain_);
     ray_cache_->in_bundles(*links_->spawned_rays);
     ray_cache_->out_packets(*links_->packet_fifo);
   } else {
@@ -179,8 +180,7 @@ void Machine::connect() {
     unit.in_packets(*links.arbiter_to_traversal.back());
     links.intersection_to_traversal.push_back(std::make_unique<TimedChannel<LeafDone>>(
         number("intersection_to_traversal", i).c_str(),
-        TimedChannel<LeafDone>::Spec{
-            .capacity = kNeverFull, .latency = latency, .interval = 0}));
+        TimedChannel<LeafDone>::Spec{.capacity = kNeverFull, .latency = latency, .interval = 0}));
     unit.in_done(*links.intersection_to_traversal.back());
     unit.out_free(*links.traversal_to_arbiter);
   }

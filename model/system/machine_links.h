@@ -24,7 +24,7 @@ struct Machine::Links {
   std::unique_ptr<TimedChannel<FilmBatch*>> shader_to_film;
   std::unique_ptr<TimedChannel<SpawnBundle*>> spawned_rays;
   std::unique_ptr<TimedChannel<LineRequest>> caches_to_l2;
-  Channels<LineResponse> l2_to_caches;           ///< one per requester
+  Channels<LineResponse> l2_to_caches;  ///< one per requester
 };
 
 }  // namespace sheaf

@@ -94,8 +94,7 @@ void Machine::report_memory(StatsTree& stats) const {
                     "Hits per access; merges are no hits");
   };
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-    cache(fmt::format("system.traversal_unit{}.node_cache", i),
-          traversal_units_[i]->cache_stats());
+    cache(fmt::format("system.traversal_unit{}.node_cache", i), traversal_units_[i]->cache_stats());
   }
   for (std::size_t i = 0; i < intersection_units_.size(); ++i) {
     cache(fmt::format("system.intersection_unit{}.triangle_cache", i),
@@ -112,8 +111,7 @@ void Machine::report_memory(StatsTree& stats) const {
   stats.add_ratio("system.l2.hit_rate", l2_->stats().num_hits, l2_->stats().num_accesses, "1",
                   "Hits per request; merges are no hits");
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
-    const std::string path =
-        fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
+    const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
     stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
   }
   stats.add_counters("system.dram", dram_->stats());

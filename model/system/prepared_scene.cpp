@@ -20,8 +20,8 @@ std::vector<TriangleRecord> make_records(const Scene& scene) {
   std::vector<TriangleRecord> records;
   records.reserve(scene.triangles.size());
   for (const auto& corners : scene.triangles) {
-    records.push_back({scene.positions[corners[0]], scene.positions[corners[1]],
-                       scene.positions[corners[2]]});
+    records.push_back(
+        {scene.positions[corners[0]], scene.positions[corners[1]], scene.positions[corners[2]]});
   }
   return records;
 }

@@ -79,7 +79,8 @@ void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& 
   stats.add("kdtree.depth", static_cast<std::uint64_t>(tree.depth), "nodes", "Longest path");
   stats.add("memory.footprint", scene.memory.total_size(), "bytes",
             "Simulated memory that tree, triangles, attributes, textures and frame buffer take");
-  for (const auto& [what, why] : plan.left_out) stats.add_text("left_out." + what, why, "Not built");
+  for (const auto& [what, why] : plan.left_out)
+    stats.add_text("left_out." + what, why, "Not built");
 }
 
 std::span<const CounterGroup> counter_groups() {

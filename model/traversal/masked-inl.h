@@ -80,8 +80,8 @@ class MaskedCursor {
       state.leave[g] = hn::Set(FloatTag(), -1.0F);
       if (skip(members_, g)) continue;
       state.enter[g] = load(rays_.enter, g);
-      state.leave[g] = hn::IfThenElse(mask_of(group_bits(members_, g)), load(rays_.leave, g),
-                                      state.leave[g]);
+      state.leave[g] =
+          hn::IfThenElse(mask_of(group_bits(members_, g)), load(rays_.leave, g), state.leave[g]);
       state.lanes |= bits_of(hn::Le(state.enter[g], state.leave[g])) << (g * kGroupLanes);
     }
     return state;
@@ -156,8 +156,7 @@ class MaskedCursor {
 
   /// Returns how many triangles were tested.
   template <class Recorder>
-  HWY_INLINE std::uint32_t test_leaf(const KdNode node, LaneMask lanes,
-                                     Recorder& recorder) {
+  HWY_INLINE std::uint32_t test_leaf(const KdNode node, LaneMask lanes, Recorder& recorder) {
     const std::uint32_t count = node.count();
     const std::uint32_t* const list = leaf_triangles_ + node.first();
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -166,7 +165,8 @@ class MaskedCursor {
       const float* const corners = &triangles_[triangle].a.x;
       for (std::size_t g = 0; g < kGroups; ++g) {
         if (skip(lanes, g)) continue;
-        const LaneMask ended = test_triangle(corners, triangle, shared_axis_, g, group_bits(lanes, g), rays_);
+        const LaneMask ended =
+            test_triangle(corners, triangle, shared_axis_, g, group_bits(lanes, g), rays_);
         lanes &= ~(ended << (g * kGroupLanes));
       }
       if (lanes == 0) return i + 1;

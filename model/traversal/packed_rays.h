@@ -23,10 +23,10 @@ struct alignas(64) PackedRays {
   Lanes<float> leave;  ///< where it leaves them, or t_max; enter > leave where it misses them
 
   // The watertight test: see ShearedRay.
-  std::array<Lanes<float>, 3> origin;     ///< along the ray's x, y and z
+  std::array<Lanes<float>, 3> origin;  ///< along the ray's x, y and z
   std::array<Lanes<float>, 3> shear;
   std::array<Lanes<std::uint32_t>, 3> permutation;  ///< axis that is the ray's x, y and z
-  std::array<LaneMask, 3> longest;        ///< by axis: the lanes whose z it is
+  std::array<LaneMask, 3> longest;                  ///< by axis: the lanes whose z it is
 
   // Results. A hit must have t below `limit`, or equal to it and a lower primitive number.
   Lanes<float> limit;  ///< -infinity once a lane needs no more hits
@@ -34,11 +34,11 @@ struct alignas(64) PackedRays {
   Lanes<float> hit_u;
   Lanes<float> hit_v;
   Lanes<std::uint32_t> hit_triangle;
-  LaneMask any_hit;    ///< lanes whose first hit ends them
+  LaneMask any_hit;  ///< lanes whose first hit ends them
   LaneMask has_hit;
 
   int count;
-  Lanes<std::uint8_t> packet_lane;    ///< where each ray stands in its packet
+  Lanes<std::uint8_t> packet_lane;  ///< where each ray stands in its packet
 
   [[nodiscard]] ShearedRay sheared_ray(std::size_t lane) const {
     ShearedRay ray;

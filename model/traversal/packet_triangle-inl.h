@@ -76,8 +76,7 @@ HWY_INLINE PermutedCorners permute_each(const float* corners, std::size_t group,
     const auto bytes = hn::Add(hn::Mul(axis, hn::Set(di, 0x04040404U)), hn::Set(di, 0x03020100U));
     p.a[k] = hn::BitCast(d, hn::TableLookupBytes(a, bytes));
     p.b[k] = hn::BitCast(d, hn::TableLookupBytes(b, bytes));
-    p.c[k] = hn::BitCast(d,
-                         hn::TableLookupBytes(c, hn::Add(bytes, hn::Set(di, 0x04040404U))));
+    p.c[k] = hn::BitCast(d, hn::TableLookupBytes(c, hn::Add(bytes, hn::Set(di, 0x04040404U))));
   }
 #endif
   return p;
@@ -85,15 +84,15 @@ HWY_INLINE PermutedCorners permute_each(const float* corners, std::size_t group,
 
 HWY_INLINE ShearedGroup shear_group(const float* corners, SharedAxis shared, std::size_t group,
                                     const PackedRays& rays) {
-  const PermutedCorners p = shared != kNoSharedAxis ? permute_all(corners, shared)
-                                                    : permute_each(corners, group, rays);
+  const PermutedCorners p =
+      shared != kNoSharedAxis ? permute_all(corners, shared) : permute_each(corners, group, rays);
   const FloatVec origin_x = load(rays.origin[0], group);
   const FloatVec origin_y = load(rays.origin[1], group);
   const FloatVec origin_z = load(rays.origin[2], group);
   const FloatVec shear_x = load(rays.shear[0], group);
   const FloatVec shear_y = load(rays.shear[1], group);
   const FloatVec shear_z = load(rays.shear[2], group);
-  const auto shear = [&](const FloatVec (&corner)[3], FloatVec& x, FloatVec& y, FloatVec& z) {
+  const auto shear = [&](const FloatVec(&corner)[3], FloatVec& x, FloatVec& y, FloatVec& z) {
     const FloatVec along = hn::Sub(corner[2], origin_z);
     x = hn::Sub(hn::Sub(corner[0], origin_x), hn::Mul(shear_x, along));
     y = hn::Sub(hn::Sub(corner[1], origin_y), hn::Mul(shear_y, along));
@@ -181,8 +180,7 @@ HWY_INLINE LaneMask test_triangle(const float* corners, std::uint32_t triangle, 
   const FloatVec area = hn::Add(hn::Add(u, v), w);
   const FloatVec depth = hn::Add(hn::Add(hn::Mul(u, s.az), hn::Mul(v, s.bz)), hn::Mul(w, s.cz));
   HitGroup hit{hn::Div(depth, area), hn::Div(v, area), hn::Div(w, area)};
-  const FloatMask zeros =
-      hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero));
+  const FloatMask zeros = hn::Or(hn::Or(hn::Eq(u, zero), hn::Eq(v, zero)), hn::Eq(w, zero));
   const LaneMask unsure = lanes & bits_of(zeros);
   if (HWY_UNLIKELY(unsure != 0)) {
     lanes = (lanes & ~unsure) | decide_in_double(s, unsure, hit);

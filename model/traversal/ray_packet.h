@@ -30,9 +30,9 @@ struct alignas(64) RayPacket {
   alignas(64) Lanes<std::uint32_t> hit_triangle;
   Lanes<Vec3> weight;
   Lanes<RayTag> tag;
-  int size = 0;                ///< lanes of the machine's packet (1..64), active or not
-  LaneMask active = 0;         ///< lanes that hold a ray
-  LaneMask any_hit = 0;        ///< lanes that need only know whether something is hit (shadow rays)
+  int size = 0;          ///< lanes of the machine's packet (1..64), active or not
+  LaneMask active = 0;   ///< lanes that hold a ray
+  LaneMask any_hit = 0;  ///< lanes that need only know whether something is hit (shadow rays)
 
   void put(int lane, const Ray& ray) {
     const auto i = static_cast<std::size_t>(lane);

@@ -46,7 +46,9 @@ class Packer {
       copy(from, to);
       raw_.t_max[to] = packet_.t_max[from];
     }
-    const auto up_to = [](int lane) { return lane == 64 ? ~LaneMask{0} : (LaneMask{1} << lane) - 1; };
+    const auto up_to = [](int lane) {
+      return lane == 64 ? ~LaneMask{0} : (LaneMask{1} << lane) - 1;
+    };
     return up_to(rays_.count) & ~up_to(begin);
   }
 
@@ -141,9 +143,8 @@ HWY_INLINE void set_up_planes(const RawRays& raw, std::size_t group, const Box& 
   for (std::size_t a = 0; a < 3; ++a) {
     const FloatVec org = load(raw.origin[a], group);
     const FloatVec dir = load(raw.direction[a], group);
-    const FloatVec error = hn::Add(
-        hn::Mul(hn::Set(d, 6.0F * kHalfUlp), hn::Add(reach[a], reach_z)),
-        hn::Mul(hn::Set(d, 2.0F * kHalfUlp), hn::Abs(org)));
+    const FloatVec error = hn::Add(hn::Mul(hn::Set(d, 6.0F * kHalfUlp), hn::Add(reach[a], reach_z)),
+                                   hn::Mul(hn::Set(d, 2.0F * kHalfUlp), hn::Abs(org)));
     const FloatVec shift = hn::CopySignToAbs(error, dir);
     const FloatVec near_origin = hn::Sub(org, shift);
     const FloatVec far_origin = hn::Add(org, shift);

@@ -57,8 +57,12 @@ HWY_INLINE LaneMask group_bits(LaneMask lanes, std::size_t group) {
 }
 
 /// The lesser or greater of two numbers; `b` where `a` is NaN. `b` is never NaN.
-HWY_INLINE FloatVec min_unless_nan(FloatVec a, FloatVec b) { return hn::Min(a, b); }
-HWY_INLINE FloatVec max_unless_nan(FloatVec a, FloatVec b) { return hn::Max(a, b); }
+HWY_INLINE FloatVec min_unless_nan(FloatVec a, FloatVec b) {
+  return hn::Min(a, b);
+}
+HWY_INLINE FloatVec max_unless_nan(FloatVec a, FloatVec b) {
+  return hn::Max(a, b);
+}
 
 }  // namespace sheaf::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -4,8 +4,7 @@
 
 // The kernels keep vectors in arrays, which vectors of unknown size cannot; and SSSE3 alone is not
 // worth its compile time.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "traversal/trace.cpp"
 #include <hwy/foreach_target.h>

@@ -27,13 +27,13 @@ using TraceLog = std::vector<TraceStep>;
 /// Counts of the coherence measures. "Packet" counts one for a whole packet (each masked pass
 /// counted), "lane" counts active lanes; under masked traversal the lane counts equal the sums over
 /// the rays traced one by one.
-#define SHEAF_TRACE_COUNTERS(X)                                                               \
-  X(packet_inner_visits, "nodes", "Inner nodes visited by packets, each pass counted")        \
-  X(packet_leaf_visits, "nodes", "Leaves visited by packets, each pass counted")              \
-  X(packet_triangle_tests, "tests", "Triangles tested by packets")                            \
-  X(lane_inner_visits, "nodes", "Inner nodes visited, summed over active lanes")              \
-  X(lane_leaf_visits, "nodes", "Leaves visited, summed over active lanes")                    \
-  X(lane_triangle_tests, "tests", "Triangles tested, summed over active lanes")               \
+#define SHEAF_TRACE_COUNTERS(X)                                                        \
+  X(packet_inner_visits, "nodes", "Inner nodes visited by packets, each pass counted") \
+  X(packet_leaf_visits, "nodes", "Leaves visited by packets, each pass counted")       \
+  X(packet_triangle_tests, "tests", "Triangles tested by packets")                     \
+  X(lane_inner_visits, "nodes", "Inner nodes visited, summed over active lanes")       \
+  X(lane_leaf_visits, "nodes", "Leaves visited, summed over active lanes")             \
+  X(lane_triangle_tests, "tests", "Triangles tested, summed over active lanes")        \
   X(passes, "passes", "Direction-sign configurations traversed")
 SHEAF_STATS(TraceCounts, SHEAF_TRACE_COUNTERS);
 

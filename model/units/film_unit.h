@@ -16,8 +16,8 @@
 
 namespace sheaf {
 
-#define SHEAF_FILM_COUNTERS(X)                                            \
-  X(num_batches, "batches", "Packets whose contributions came in")        \
+#define SHEAF_FILM_COUNTERS(X)                                     \
+  X(num_batches, "batches", "Packets whose contributions came in") \
   X(num_contributions, "pixels", "Contributions added to a pixel")
 SHEAF_STATS(FilmStats, SHEAF_FILM_COUNTERS);
 
@@ -56,9 +56,9 @@ class FilmUnit final : public sc_core::sc_module, public Agent {
   ClockDomain& domain_;
   Inbox inbox_;
   PrivateCache cache_;
-  FilmBatch* batch_ = nullptr;       ///< being added
+  FilmBatch* batch_ = nullptr;  ///< being added
   std::size_t position_ = 0;
-  std::uint64_t next_line_ = 0;      ///< of the contribution at position_, already asked for
+  std::uint64_t next_line_ = 0;  ///< of the contribution at position_, already asked for
   bool waits_for_mshr_ = false;
   std::vector<std::uint64_t> dirty_lines_;
   bool flushing_ = false;

@@ -89,9 +89,7 @@ class FlowControl {
   [[nodiscard]] Source source() const { return source_state_; }
   [[nodiscard]] std::uint64_t live() const { return live_; }
   [[nodiscard]] std::uint64_t max_live() const { return max_live_; }
-  [[nodiscard]] bool finished() const {
-    return live_ == 0 && source_state_ == Source::kExhausted;
-  }
+  [[nodiscard]] bool finished() const { return live_ == 0 && source_state_ == Source::kExhausted; }
 
  private:
   static void nudge(Inbox* inbox, Cycles now) {

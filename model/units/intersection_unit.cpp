@@ -52,8 +52,12 @@ void IntersectionUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   switch (context.phase) {
     case Phase::kList:
-    case Phase::kTriangle: enqueue(number); return;
-    case Phase::kTriangleIssued: ++context.tested; [[fallthrough]];
+    case Phase::kTriangle:
+      enqueue(number);
+      return;
+    case Phase::kTriangleIssued:
+      ++context.tested;
+      [[fallthrough]];
     case Phase::kListIssued:
       if (context.tested < context.job.num_tests) {
         context.phase = Phase::kTriangle;
@@ -85,9 +89,9 @@ void IntersectionUnit::issue(int number, Cycles now) {
   std::uint32_t lookups = 0;
   bool complete = false;
   if (context.phase == Phase::kList) {
-    complete = fetch(number, scene_.memory.leaf_entry(first),
-                     context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList,
-                     lookups, now);
+    complete =
+        fetch(number, scene_.memory.leaf_entry(first),
+              context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList, lookups, now);
     if (complete) context.phase = Phase::kListIssued;
   } else {
     const std::uint32_t triangle = scene_.tree.leaf_triangles[first + context.tested];

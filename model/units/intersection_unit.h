@@ -20,7 +20,7 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
                    const CacheSpec& cache, const TracedScene& scene, const AnswerTimes& times,
                    ClockDomain& domain, TimedOut<LineRequest>& memory, std::uint16_t requester);
 
-  sc_core::sc_port<TimedIn<LeafJob>, 0> in_jobs;     ///< one per traversal unit
+  sc_core::sc_port<TimedIn<LeafJob>, 0> in_jobs;  ///< one per traversal unit
   sc_core::sc_port<TimedIn<LineResponse>> in_lines;
   sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
 

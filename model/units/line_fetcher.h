@@ -21,8 +21,8 @@ class LineFetcher {
   explicit LineFetcher(PrivateCache& cache) : cache_(cache) {}
 
   struct Outcome {
-    bool complete = false;       ///< every line is there
-    std::uint32_t lookups = 0;   ///< made now
+    bool complete = false;      ///< every line is there
+    std::uint32_t lookups = 0;  ///< made now
   };
 
   /// Asks for the lines that the context's step has not asked for yet; line(i) is the i-th of

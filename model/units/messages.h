@@ -12,9 +12,9 @@ namespace sheaf {
 
 /// Traversal → intersection: test a packet against the first num_tests triangles of a leaf.
 struct LeafJob {
-  std::uint32_t leaf = 0;       ///< node number
+  std::uint32_t leaf = 0;  ///< node number
   std::uint32_t num_tests = 0;
-  std::uint16_t unit = 0;       ///< traversal unit and context that wait for the answer
+  std::uint16_t unit = 0;  ///< traversal unit and context that wait for the answer
   std::uint16_t context = 0;
 };
 

@@ -19,10 +19,10 @@
 namespace sheaf {
 
 // What every unit with contexts counts about its pipeline.
-#define SHEAF_PIPELINE_COUNTERS(X)                                                             \
-  X(num_accepted, "packets", "Packets or jobs taken in")                                      \
-  X(num_issues, "steps", "Steps issued, those repeated after a miss included")                \
-  X(num_reissues, "steps", "Steps issued again after their data had come")                    \
+#define SHEAF_PIPELINE_COUNTERS(X)                                             \
+  X(num_accepted, "packets", "Packets or jobs taken in")                       \
+  X(num_issues, "steps", "Steps issued, those repeated after a miss included") \
+  X(num_reissues, "steps", "Steps issued again after their data had come")     \
   X(issue_slots, "cycles", "Cycles in which the issue port was taken")
 SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 

@@ -63,9 +63,12 @@ Cycles PacketArbiter::act(Cycles now) {
 bool PacketArbiter::choose_secondary(bool has_primary, bool has_secondary) const {
   if (!has_primary || !has_secondary) return has_secondary;
   switch (spec_.policy) {
-    case ArbiterPolicy::kAlternate: return !last_was_secondary_;
-    case ArbiterPolicy::kPrimaryFirst: return false;
-    case ArbiterPolicy::kSecondaryFirst: return true;
+    case ArbiterPolicy::kAlternate:
+      return !last_was_secondary_;
+    case ArbiterPolicy::kPrimaryFirst:
+      return false;
+    case ArbiterPolicy::kSecondaryFirst:
+      return true;
   }
   return false;
 }

@@ -14,10 +14,10 @@
 
 namespace sheaf {
 
-#define SHEAF_ARBITER_COUNTERS(X)                                                      \
-  X(num_primary_packets, "packets", "Primary packets given to a traversal context")    \
+#define SHEAF_ARBITER_COUNTERS(X)                                                       \
+  X(num_primary_packets, "packets", "Primary packets given to a traversal context")     \
   X(num_secondary_packets, "packets", "Secondary packets given to a traversal context") \
-  X(num_primary_rays, "rays", "Rays in the primary packets")                           \
+  X(num_primary_rays, "rays", "Rays in the primary packets")                            \
   X(num_secondary_rays, "rays", "Rays in the secondary packets")
 SHEAF_STATS(ArbiterStats, SHEAF_ARBITER_COUNTERS);
 

@@ -75,8 +75,8 @@ bool PrimarySource::prepare_packet(Cycles now) {
     make_primary_packet(camera_, image_, run, *packet_);
     reservation_ = 0;
     for (LaneMask left = packet_->active; left != 0; left &= left - 1) {
-      reservation_ += flow_.worst_case(packet_->tag[static_cast<std::size_t>(
-          std::countr_zero(left))]);
+      reservation_ +=
+          flow_.worst_case(packet_->tag[static_cast<std::size_t>(std::countr_zero(left))]);
     }
   }
   return true;
@@ -85,9 +85,8 @@ bool PrimarySource::prepare_packet(Cycles now) {
 Cycles PrimarySource::act(Cycles now) {
   if (now < next_packet_) return next_packet_;
   if (!prepare_packet(now)) {
-    stalls_.switch_to(flow_.source() == FlowControl::Source::kExhausted
-                          ? StallCause::kIdle
-                          : StallCause::kWaitingInput,
+    stalls_.switch_to(flow_.source() == FlowControl::Source::kExhausted ? StallCause::kIdle
+                                                                        : StallCause::kWaitingInput,
                       now);
     return kNever;  // woken when the tile has finished
   }
@@ -118,11 +117,11 @@ Cycles PrimarySource::act(Cycles now) {
 
 std::string PrimarySource::stuck_reason() const {
   if (order_.is_done() && packet_ == nullptr) return {};
+  const char* why = "the tile has not finished";
+  if (flow_.source() == FlowControl::Source::kNoCredit) why = "no credit for the next packet";
+  if (flow_.source() == FlowControl::Source::kIssuing) why = "its link to the arbiter is full";
   return fmt::format("{}: {} of {} tiles begun, {}", name(), order_.tile_index(),
-                     order_.num_tiles(),
-                     flow_.source() == FlowControl::Source::kNoCredit
-                         ? "no credit for the next packet"
-                         : "the tile has not finished");
+                     order_.num_tiles(), why);
 }
 
 }  // namespace sheaf

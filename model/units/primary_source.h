@@ -16,9 +16,9 @@
 
 namespace sheaf {
 
-#define SHEAF_PRIMARY_SOURCE_COUNTERS(X)                                            \
-  X(num_packets, "packets", "Primary packets made")                                 \
-  X(num_rays, "rays", "Primary rays made")                                          \
+#define SHEAF_PRIMARY_SOURCE_COUNTERS(X)            \
+  X(num_packets, "packets", "Primary packets made") \
+  X(num_rays, "rays", "Primary rays made")          \
   X(num_tiles, "tiles", "Tiles begun")
 SHEAF_STATS(PrimarySourceStats, SHEAF_PRIMARY_SOURCE_COUNTERS);
 
@@ -61,8 +61,8 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
   FlowControl& flow_;
   ClockDomain& domain_;
   Inbox inbox_;
-  RayPacket* packet_ = nullptr;     ///< made, not yet admitted or sent
-  std::uint64_t reservation_ = 0;   ///< worst case of packet_
+  RayPacket* packet_ = nullptr;    ///< made, not yet admitted or sent
+  std::uint64_t reservation_ = 0;  ///< worst case of packet_
   Cycles next_packet_ = 0;
   bool tile_begun_ = false;
   PrimarySourceStats stats_;

@@ -23,7 +23,9 @@ RayCacheUnit::RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSp
   flow.bind_regrouper(inbox_);
 }
 
-void RayCacheUnit::end_of_elaboration() { in_bundles->set_consumer(inbox_); }
+void RayCacheUnit::end_of_elaboration() {
+  in_bundles->set_consumer(inbox_);
+}
 
 Cycles RayCacheUnit::wake(Cycles now) {
   for (;;) {
@@ -44,8 +46,8 @@ Cycles RayCacheUnit::act(Cycles now) {
     stalls_.switch_to(StallCause::kBusy, now);
     return now + 1;
   }
-  stalls_.switch_to(
-      sorter_->num_waiting() != 0 ? StallCause::kWaitingInput : StallCause::kIdle, now);
+  stalls_.switch_to(sorter_->num_waiting() != 0 ? StallCause::kWaitingInput : StallCause::kIdle,
+                    now);
   return std::min(in_bundles->next_arrival(), next_time_out());
 }
 

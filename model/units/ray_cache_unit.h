@@ -53,7 +53,7 @@ class RayCacheUnit final : public sc_core::sc_module, public Agent {
   SpawnBundle* bundle_ = nullptr;  ///< being taken in
   std::size_t position_ = 0;
   std::vector<RayPacket*> departures_;
-  std::size_t num_sent_ = 0;       ///< of departures_
+  std::size_t num_sent_ = 0;  ///< of departures_
   StallAccount stalls_;
 };
 

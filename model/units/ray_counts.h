@@ -16,7 +16,7 @@ class RayCounts {
   struct Entry {
     std::uint64_t spawned = 0;
     std::uint64_t retired = 0;
-    std::uint64_t hits = 0;     ///< shadow rays: occluded
+    std::uint64_t hits = 0;  ///< shadow rays: occluded
     [[nodiscard]] bool operator==(const Entry&) const = default;
   };
   /// Rays up to depth recursion_level + 1 (the shadow rays of the deepest hits).

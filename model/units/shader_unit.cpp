@@ -10,9 +10,8 @@ namespace sheaf {
 
 ShaderUnit::ShaderUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
                        const CacheSpec& attribute_cache, const CacheSpec* texture_cache,
-                       const ShadedScene& scene, ClockDomain& domain,
-                       TimedOut<LineRequest>& memory, std::uint16_t attribute_requester,
-                       std::uint16_t texture_requester)
+                       const ShadedScene& scene, ClockDomain& domain, TimedOut<LineRequest>& memory,
+                       std::uint16_t attribute_requester, std::uint16_t texture_requester)
     : MultiContextUnit(name, spec, packet_size, domain),
       in_packets("in_packets"),
       in_attribute_lines("in_attribute_lines"),
@@ -97,7 +96,8 @@ void ShaderUnit::list_lines(Context& context) {
       }
       break;
     case Phase::kCompute:
-    case Phase::kOutput: return;
+    case Phase::kOutput:
+      return;
   }
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
@@ -202,8 +202,8 @@ void ShaderUnit::retire(Context& context, std::uint64_t spawned, std::uint64_t r
 
 std::string ShaderUnit::stuck_reason() const {
   if (num_held() == 0) return {};
-  return fmt::format("{}: {} packets held, {} waiting for memory, {} blocked by a full link", name(),
-                     num_held(), std::popcount(parked()), std::popcount(blocked()));
+  return fmt::format("{}: {} packets held, {} waiting for memory, {} blocked by a full link",
+                     name(), num_held(), std::popcount(parked()), std::popcount(blocked()));
 }
 
 }  // namespace sheaf

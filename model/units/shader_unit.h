@@ -66,9 +66,9 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
     PacketShading shading;
     std::vector<std::uint64_t> lines;  ///< of the current phase, each once
     Phase phase = Phase::kIndices;
-    bool issued = false;               ///< the phase's step is in the pipeline
-    FilmBatch* batch = nullptr;        ///< still to be sent
-    SpawnBundle* bundle = nullptr;     ///< still to be sent
+    bool issued = false;            ///< the phase's step is in the pipeline
+    FilmBatch* batch = nullptr;     ///< still to be sent
+    SpawnBundle* bundle = nullptr;  ///< still to be sent
   };
 
   void end_of_elaboration() override;

@@ -19,7 +19,9 @@ SpawnRouter::SpawnRouter(const sc_core::sc_module_name& name, PacketPool& packet
   inbox_.bind(domain, domain.add(*this));
 }
 
-void SpawnRouter::end_of_elaboration() { in_bundles->set_consumer(inbox_); }
+void SpawnRouter::end_of_elaboration() {
+  in_bundles->set_consumer(inbox_);
+}
 
 Cycles SpawnRouter::wake(Cycles now) {
   for (;;) {

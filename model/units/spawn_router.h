@@ -13,9 +13,9 @@
 
 namespace sheaf {
 
-#define SHEAF_SPAWN_ROUTER_COUNTERS(X)                                       \
-  X(num_bundles, "bundles", "Packets whose spawned rays came in")            \
-  X(num_packets, "packets", "Packets sent on, one a kind of ray")            \
+#define SHEAF_SPAWN_ROUTER_COUNTERS(X)                            \
+  X(num_bundles, "bundles", "Packets whose spawned rays came in") \
+  X(num_packets, "packets", "Packets sent on, one a kind of ray") \
   X(num_rays, "rays", "Rays in these packets")
 SHEAF_STATS(SpawnRouterStats, SHEAF_SPAWN_ROUTER_COUNTERS);
 

@@ -87,8 +87,12 @@ void TraversalUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   switch (context.phase) {
     case Phase::kSetup:
-    case Phase::kStep: enqueue(number); return;
-    case Phase::kSetupIssued: begin_step(number, now); return;
+    case Phase::kStep:
+      enqueue(number);
+      return;
+    case Phase::kSetupIssued:
+      begin_step(number, now);
+      return;
     case Phase::kStepIssued:
       if (context.log[context.position].num_tests != 0) {
         context.phase = Phase::kJob;
@@ -98,12 +102,16 @@ void TraversalUnit::ready(int number, Cycles now) {
       ++context.position;
       begin_step(number, now);
       return;
-    case Phase::kJob: send_job(number, now); return;
+    case Phase::kJob:
+      send_job(number, now);
+      return;
     case Phase::kAnswered:
       ++context.position;
       begin_step(number, now);
       return;
-    case Phase::kDone: send_packet(number, now); return;
+    case Phase::kDone:
+      send_packet(number, now);
+      return;
   }
 }
 
@@ -138,16 +146,20 @@ void TraversalUnit::issue(int number, Cycles now) {
 }
 
 void TraversalUnit::send_job(int number, Cycles now) {
-  const TraceStep& step = contexts_[static_cast<std::size_t>(number)].log
-                              [contexts_[static_cast<std::size_t>(number)].position];
+  const TraceStep& step = contexts_[static_cast<std::size_t>(number)]
+                              .log[contexts_[static_cast<std::size_t>(number)].position];
   const LeafJob job{step.node, step.num_tests, number_, static_cast<std::uint16_t>(number)};
   switch (jobs_.write(job, now, is_certain(now), inbox_)) {
     case Sent::kYes:
       unblock(number);
       await(number, now + times_.leaf_fixed + step.num_tests * times_.leaf_test);
       return;
-    case Sent::kNo: block(number); return;
-    case Sent::kUnknown: hold_back(number, now); return;
+    case Sent::kNo:
+      block(number);
+      return;
+    case Sent::kUnknown:
+      hold_back(number, now);
+      return;
   }
 }
 
@@ -159,15 +171,19 @@ void TraversalUnit::send_packet(int number, Cycles now) {
       free_context(number);
       out_free->write_ahead({number_}, now, number_);
       return;
-    case Sent::kNo: block(number); return;
-    case Sent::kUnknown: hold_back(number, now); return;
+    case Sent::kNo:
+      block(number);
+      return;
+    case Sent::kUnknown:
+      hold_back(number, now);
+      return;
   }
 }
 
 std::string TraversalUnit::stuck_reason() const {
   if (num_held() == 0) return {};
-  return fmt::format("{}: {} packets held, {} waiting for memory, {} blocked by a full link", name(),
-                     num_held(), std::popcount(parked()), std::popcount(blocked()));
+  return fmt::format("{}: {} packets held, {} waiting for memory, {} blocked by a full link",
+                     name(), num_held(), std::popcount(parked()), std::popcount(blocked()));
 }
 
 }  // namespace sheaf

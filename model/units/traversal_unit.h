@@ -8,9 +8,9 @@
 #include "kdtree/memory_map.h"
 #include "traversal/trace.h"
 #include "units/line_fetcher.h"
+#include "units/link_choice.h"
 #include "units/messages.h"
 #include "units/multi_context_unit.h"
-#include "units/link_choice.h"
 
 namespace sheaf {
 
@@ -66,7 +66,15 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
 
  private:
   friend class MultiContextUnit<TraversalUnit>;
-  enum class Phase : std::uint8_t { kSetup, kSetupIssued, kStep, kStepIssued, kJob, kAnswered, kDone };
+  enum class Phase : std::uint8_t {
+    kSetup,
+    kSetupIssued,
+    kStep,
+    kStepIssued,
+    kJob,
+    kAnswered,
+    kDone
+  };
   struct Context {
     RayPacket* packet = nullptr;
     TraceLog log;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <stdexcept>
 #include <systemc>
+#include <tuple>
 
 #include "config/read_config.h"
 #include "report/stats_json.h"
@@ -48,23 +49,27 @@ void keep_complaints(const sc_core::sc_report& report, const sc_core::sc_actions
 
 template <typename Simulator>
 bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
-              StatsTree& stats) {
+              bool in_step, StatsTree& stats) {
   Simulator simulator(config, plan, scene, frame);
+  if constexpr (std::is_same_v<Simulator, Machine>) {
+    if (in_step) simulator.clock_domain().forbid_running_ahead();
+  }
   const bool complete = simulator.run({});
   simulator.report(stats);
   return complete;
 }
 
-Outcome run_here(const Config& config, const PreparedScene& scene) {
+Outcome run_here(const Config& config, const PreparedScene& scene, bool in_step) {
   Outcome outcome;
   sc_core::sc_report_handler::set_handler(keep_complaints);
   try {
     const BuildPlan plan = plan_machine(config, scene.scene.needs);
     Frame frame(config);
     StatsTree stats;
-    outcome.complete = config.run.fidelity == Fidelity::kFunctional
-                           ? simulate<FunctionalPipeline>(config, plan, scene, frame, stats)
-                           : simulate<Machine>(config, plan, scene, frame, stats);
+    outcome.complete =
+        config.run.fidelity == Fidelity::kFunctional
+            ? simulate<FunctionalPipeline>(config, plan, scene, frame, in_step, stats)
+            : simulate<Machine>(config, plan, scene, frame, in_step, stats);
     report_rays(frame.rays, stats);
     outcome.stats = nlohmann::json::parse(stats_json(stats));
     for (std::uint32_t i = 0; i < config.image.width * config.image.height; ++i) {
@@ -153,7 +158,17 @@ Outcome TestScene::run(const Settings& settings) const {
   return run(resolve_config({}, all));
 }
 
+Outcome TestScene::run_in_step(const Settings& settings) const {
+  Settings all = base_;
+  all.insert(all.end(), settings.begin(), settings.end());
+  return run(resolve_config({}, all), true);
+}
+
 Outcome TestScene::run(const Config& config) const {
+  return run(config, false);
+}
+
+Outcome TestScene::run(const Config& config, bool in_step) const {
   check_same_scene(config_, config);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   if (file == nullptr) throw std::runtime_error("no temporary file");
@@ -161,7 +176,7 @@ Outcome TestScene::run(const Config& config) const {
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
     alarm(kSecondsToHang);
-    send(file.get(), run_here(config, prepared_));
+    send(file.get(), run_here(config, prepared_, in_step));
     std::fflush(file.get());
     _exit(0);
   }

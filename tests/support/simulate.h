@@ -41,6 +41,9 @@ class TestScene {
   /// Simulates with `settings` on top of the base.
   [[nodiscard]] Outcome run(const Settings& settings = {}) const;
 
+  /// The same with no unit running ahead of another.
+  [[nodiscard]] Outcome run_in_step(const Settings& settings) const;
+
   /// Simulates with a configuration that need not be one that the reader accepts.
   [[nodiscard]] Outcome run(const Config& config) const;
 
@@ -48,6 +51,8 @@ class TestScene {
   [[nodiscard]] const Config& base() const { return config_; }
 
  private:
+  [[nodiscard]] Outcome run(const Config& config, bool in_step) const;
+
   Settings base_;
   Config config_;
   PreparedScene prepared_;

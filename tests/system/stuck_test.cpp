@@ -37,7 +37,6 @@ TEST_P(Stuck, MachineNamesItsStuckUnits) {
     EXPECT_NE(outcome.error.find(name), std::string::npos) << name << ": " << outcome.error;
   }
   EXPECT_EQ(outcome.error.find('\n'), std::string::npos) << "more than one line";
-  std::cout << outcome.error << '\n';
 }
 
 INSTANTIATE_TEST_SUITE_P(

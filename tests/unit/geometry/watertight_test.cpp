@@ -79,8 +79,8 @@ TEST(Watertight, TinyTrianglesAreDecidedInDoublePrecision) {
   EXPECT_FALSE(hit(Vec3(0.75F * s, 0.5F * s, 0.0F), Vec3(0.0F, 0.0F, 1.0F), tiny));
 }
 
-// The promise of the test: of two triangles with a common edge, a ray that crosses the quadrilateral
-// hits at least one.
+// The promise of the test: of two triangles with a common edge, a ray that crosses the
+// quadrilateral hits at least one.
 TEST(Watertight, NoRayPassesBetweenTwoTrianglesOfAnEdge) {
   Random random(61);
   int in_both = 0;
@@ -98,8 +98,7 @@ TEST(Watertight, NoRayPassesBetweenTwoTrianglesOfAnEdge) {
     const Triangle left{a, b, middle + aside};
     const Triangle right{b, a, middle - aside};
     const Vec3 target = exact ? middle : a + (0.1F + 0.8F * random.uniform()) * (b - a);
-    const Vec3 origin =
-        exact ? target - Vec3(0.0F, 0.0F, 4.0F) : 3.0F * random_vector(random);
+    const Vec3 origin = exact ? target - Vec3(0.0F, 0.0F, 4.0F) : 3.0F * random_vector(random);
     const Vec3 direction = target - origin;
     // Seen edge-on the two triangles have no inside.
     const Vec3 normal = glm::cross(b - a, aside);

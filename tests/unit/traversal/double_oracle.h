@@ -8,8 +8,8 @@ namespace sheaf::test {
 
 /// One triangle and one ray in double precision.
 struct DoubleHit {
-  /// Distance of the ray from the nearest edge's line, measured across the ray's main axis: positive
-  /// inside the triangle, negative outside.
+  /// Distance of the ray from the nearest edge's line, measured across the ray's main axis:
+  /// positive inside the triangle, negative outside.
   double margin = 0.0;
   double t = 0.0;
   /// How far single precision may move the corners as the ray sees them: 6u × (distance of the
@@ -20,9 +20,9 @@ struct DoubleHit {
 };
 [[nodiscard]] DoubleHit hit_in_doubles(const TriangleRecord& triangle, const Ray& ray);
 
-/// Whether `hit` is an answer that rounding can explain: the triangle is hit, or missed by less than
-/// the error, t is right within the error, and no triangle is certainly hit before it. Ordinary
-/// rays have errors of a few ulps, and then this says that the hit is the right one.
+/// Whether `hit` is an answer that rounding can explain: the triangle is hit, or missed by less
+/// than the error, t is right within the error, and no triangle is certainly hit before it.
+/// Ordinary rays have errors of a few ulps, and then this says that the hit is the right one.
 [[nodiscard]] bool explains(const TestScene& scene, const Ray& ray, const Hit& hit);
 
 }  // namespace sheaf::test

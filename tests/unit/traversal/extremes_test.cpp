@@ -20,7 +20,7 @@ void expect_nothing_lost(const TestScene& scene, const Ray& ray) {
 
 /// Zeros of either sign and numbers too small to invert, besides ordinary ones.
 float odd_component(Random& random) {
-  constexpr std::array<float, 8> kOdd = {0.0F,  -0.0F,  1e-40F, -1e-40F,
+  constexpr std::array<float, 8> kOdd = {0.0F,   -0.0F,   1e-40F, -1e-40F,
                                          1e-30F, -1e-30F, 1e-7F,  -1e-7F};
   return kOdd[random.below(kOdd.size())];
 }
@@ -42,6 +42,27 @@ TEST(Extremes, AxisParallelRaysOnSplitPlanesAndBoxFaces) {
   }
 }
 
+// The traversal moves origins by its error bound. Where the moved origin meets a plane that the ray
+// runs along, the plane's distance is 0 · infinity: both sides count.
+TEST(Extremes, OriginsWithinAHundredUlpsOfAPlaneThatTheRayRunsAlong) {
+  const TestScene scene(lattice(4));
+  Random random(40);
+  for (const float zero : {0.0F, -0.0F}) {
+    for (int plane = 0; plane <= 4; ++plane) {
+      for (int ulps = -100; ulps <= 100; ++ulps) {
+        const auto axis = static_cast<int>(random.below(3));
+        Vec3 origin = 4.0F * random_point(random);
+        origin[axis] = static_cast<float>(plane) + static_cast<float>(ulps) * 0x1p-23F;
+        Vec3 direction = random_direction(random);
+        direction[axis] = zero;
+        ASSERT_NO_FATAL_FAILURE(
+            expect_nothing_lost(scene, make_ray(origin, glm::normalize(direction))))
+            << "plane " << plane << ", ulps " << ulps;
+      }
+    }
+  }
+}
+
 TEST(Extremes, RaysInsideAPlaneOfTriangles) {
   const TestScene scene(lattice(3));
   Random random(42);
@@ -51,8 +72,7 @@ TEST(Extremes, RaysInsideAPlaneOfTriangles) {
     origin[axis] = static_cast<float>(random.below(4));
     Vec3 direction = random_direction(random);
     direction[axis] = odd_component(random);
-    ASSERT_NO_FATAL_FAILURE(
-        expect_nothing_lost(scene, make_ray(origin, glm::normalize(direction))))
+    ASSERT_NO_FATAL_FAILURE(expect_nothing_lost(scene, make_ray(origin, glm::normalize(direction))))
         << i;
   }
 }
@@ -69,8 +89,7 @@ TEST(Extremes, DiagonalRaysThroughLatticePoints) {
     const Vec3 from = point();
     const Vec3 to = point();
     if (from == to) continue;
-    ASSERT_NO_FATAL_FAILURE(
-        expect_nothing_lost(scene, make_ray(from, glm::normalize(to - from))))
+    ASSERT_NO_FATAL_FAILURE(expect_nothing_lost(scene, make_ray(from, glm::normalize(to - from))))
         << i;
   }
 }
@@ -130,8 +149,9 @@ TEST(Extremes, OverflowingArithmeticYieldsNoHitAtInfinity) {
   Mesh mesh;
   mesh.add(Vec3(-1e30F, -1e30F, 1e30F), Vec3(1e30F, -1e30F, 1e30F), Vec3(0.0F, 1e30F, 1e30F));
   const TestScene scene(mesh);
-  const Hit hit = trace_one(scene, make_ray(Vec3(0.0F), Vec3(0.0F, 0.0F, 1e-20F)));
-  EXPECT_EQ(hit.triangle, kNoHit);
+  const Ray ray = make_ray(Vec3(0.0F), Vec3(0.0F, 0.0F, 1e-20F));
+  EXPECT_EQ(trace_one(scene, ray, TraversalScheme::kSingle).triangle, kNoHit);
+  EXPECT_EQ(trace_one(scene, ray, TraversalScheme::kMasked).triangle, kNoHit);
 }
 
 }  // namespace

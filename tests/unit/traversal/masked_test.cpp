@@ -52,9 +52,12 @@ void expect_same_hits(const RayPacket& a, const RayPacket& b) {
   for (LaneMask left = a.active; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     ASSERT_EQ(a.hit_triangle[lane], b.hit_triangle[lane]) << "lane " << lane;
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.hit_t[lane]), std::bit_cast<std::uint32_t>(b.hit_t[lane]));
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.hit_u[lane]), std::bit_cast<std::uint32_t>(b.hit_u[lane]));
-    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.hit_v[lane]), std::bit_cast<std::uint32_t>(b.hit_v[lane]));
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.hit_t[lane]),
+              std::bit_cast<std::uint32_t>(b.hit_t[lane]));
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.hit_u[lane]),
+              std::bit_cast<std::uint32_t>(b.hit_u[lane]));
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.hit_v[lane]),
+              std::bit_cast<std::uint32_t>(b.hit_v[lane]));
   }
 }
 

@@ -31,7 +31,10 @@ TEST(TraceOracle, FindsExactlyWhatTestingEveryTriangleFinds) {
     Random random(3);
     for (int i = 0; i < 2000; ++i) {
       const Ray ray = random_ray(random, scene.tree.bounds);
-      ASSERT_EQ(trace_one(scene, ray), test_all(scene, ray)) << c.name << ", ray " << i;
+      const Hit expected = test_all(scene, ray);
+      ASSERT_EQ(trace_one(scene, ray), expected) << c.name << ", ray " << i;
+      ASSERT_EQ(trace_one(scene, ray, TraversalScheme::kMasked), expected)
+          << c.name << ", ray " << i;
     }
   }
 }
@@ -83,7 +86,10 @@ TEST(TraceOracle, AnyHitAgreesWithClosestHit) {
       const Hit closest = test_all(scene, ray);
       ray.tag.kind = RayKind::kShadow;
       const bool blocked = closest.triangle != kNoHit && closest.t < ray.t_max;
-      ASSERT_EQ(trace_one(scene, ray).triangle != kNoHit, blocked) << c.name << ", ray " << i;
+      for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+        ASSERT_EQ(trace_one(scene, ray, scheme).triangle != kNoHit, blocked)
+            << c.name << ", ray " << i;
+      }
     }
   }
 }

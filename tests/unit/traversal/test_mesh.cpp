@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/watertight.h"
@@ -123,19 +124,25 @@ Ray make_ray(const Vec3& origin, const Vec3& direction) {
 }
 
 Ray random_ray(Random& random, const Box& bounds) {
-  const Vec3 origin =
-      bounds.lo + bounds.extent() * (1.2F * random_point(random) - Vec3(0.1F));
+  const Vec3 origin = bounds.lo + bounds.extent() * (1.2F * random_point(random) - Vec3(0.1F));
   return make_ray(origin, random_direction(random));
 }
 
 Hit trace_one(const TestScene& scene, const Ray& ray, TraversalScheme scheme) {
+  const std::size_t lanes = scheme == TraversalScheme::kMasked ? 2 : 1;
   RayPacket packet;
-  packet.clear(1);
-  packet.put(0, ray);
+  packet.clear(static_cast<int>(lanes));
+  for (std::size_t lane = 0; lane < lanes; ++lane) packet.put(static_cast<int>(lane), ray);
   TraceCounts counts;
   trace_packet(scheme, scene.tree, scene.records, packet, nullptr, nullptr, counts);
-  if (packet.hit_triangle[0] == kNoHit) return {};
-  return {packet.hit_triangle[0], packet.hit_t[0]};
+  std::array<Hit, 2> hits;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if (packet.hit_triangle[lane] != kNoHit) {
+      hits[lane] = {packet.hit_triangle[lane], packet.hit_t[lane]};
+    }
+  }
+  if (lanes == 2 && hits[0] != hits[1]) throw std::logic_error("equal rays fare differently");
+  return hits[0];
 }
 
 Hit test_all(const TestScene& scene, const Ray& ray) {

@@ -51,7 +51,8 @@ struct Hit {
   float t = 0.0F;
   bool operator==(const Hit&) const = default;
 };
-/// Traces a ray alone.
+/// Traces one ray. kMasked traces it beside a copy of itself, for a lane left alone leaves the
+/// vector kernel; throws std::logic_error if the two fare differently.
 [[nodiscard]] Hit trace_one(const TestScene& scene, const Ray& ray,
                             TraversalScheme scheme = TraversalScheme::kSingle);
 /// The same triangle test on every triangle: what a traversal that loses nothing must find.

@@ -56,8 +56,9 @@ TEST(Trace, FindsTheSurfaceThatTheOriginLiesIn) {
   Mesh mesh;
   add_wall(mesh, 2.0F);
   const TestScene scene(mesh);
-  const Hit hit = trace_one(scene, make_ray(kInside + 2.0F * kForward, kForward));
-  EXPECT_EQ(hit, (Hit{0, 0.0F}));
+  const Ray ray = make_ray(kInside + 2.0F * kForward, kForward);
+  EXPECT_EQ(trace_one(scene, ray, TraversalScheme::kSingle), (Hit{0, 0.0F}));
+  EXPECT_EQ(trace_one(scene, ray, TraversalScheme::kMasked), (Hit{0, 0.0F}));
 }
 
 TEST(Trace, NothingBehindTheOriginIsHit) {
@@ -65,8 +66,12 @@ TEST(Trace, NothingBehindTheOriginIsHit) {
   add_wall(mesh, 1.0F);
   add_wall(mesh, 3.0F);
   const TestScene scene(mesh);
-  EXPECT_EQ(trace_one(scene, make_ray(kInside + 2.0F * kForward, kForward)).t, 1.0F);
-  EXPECT_EQ(trace_one(scene, make_ray(kInside + 4.0F * kForward, kForward)).triangle, kNoHit);
+  for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+    const Ray between = make_ray(kInside + 2.0F * kForward, kForward);
+    EXPECT_EQ(trace_one(scene, between, scheme).t, 1.0F);
+    const Ray beyond = make_ray(kInside + 4.0F * kForward, kForward);
+    EXPECT_EQ(trace_one(scene, beyond, scheme).triangle, kNoHit);
+  }
 }
 
 TEST(Trace, EqualDistanceGoesToTheLowerPrimitive) {

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "channels/clock_domain.h"
+
+#include <gtest/gtest.h>
+
+#include "timing/bench.h"
+
+namespace sheaf::test {
+namespace {
+
+struct Bench : testing::Test {
+  ClockDomain domain{"domain", one_nanosecond()};
+};
+
+TEST_F(Bench, WakesAgentsInOrderOfTimeThenRank) {
+  std::vector<int> order;
+  Actor first(domain);
+  Actor second(domain);
+  second.at(3, [&] { order.push_back(2); });
+  first.at(3, [&] { order.push_back(1); });
+  second.at(2, [&] { order.push_back(0); });
+  sc_core::sc_start();
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
+}
+
+TEST_F(Bench, RunsDryWhenNobodyHasAnythingToDo) {
+  Actor actor(domain);
+  actor.at(7, [] {});
+  sc_core::sc_start();
+  EXPECT_TRUE(domain.ran_dry());
+  EXPECT_EQ(domain.now(), 7U);
+}
+
+TEST_F(Bench, LeavesTheKernelAtTheTimeOfTheLastEvent) {
+  Actor actor(domain);
+  actor.at(123, [] {});
+  sc_core::sc_start();
+  EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::sc_time(123, sc_core::SC_NS));
+}
+
+TEST_F(Bench, StopsBeforeItsEnd) {
+  Actor actor(domain);
+  actor.at(9, [] {});
+  actor.at(10, [] {});
+  domain.set_end(10);
+  sc_core::sc_start();
+  EXPECT_FALSE(domain.ran_dry());
+  EXPECT_EQ(actor.wakes, (std::vector<Cycles>{9}));
+}
+
+TEST_F(Bench, ServesMoreAgentsThanOneCalendarHolds) {
+  std::vector<std::unique_ptr<Actor>> actors;
+  std::vector<int> order;
+  for (int i = 0; i < 200; ++i) {
+    actors.push_back(std::make_unique<Actor>(domain));
+    actors.back()->at(5, [&order, i] { order.push_back(i); });
+  }
+  sc_core::sc_start();
+  ASSERT_EQ(order.size(), 200U);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+}
+
+/// A SystemC process that shares the kernel with the domain.
+struct Foreign : sc_core::sc_module {
+  Foreign(const sc_core::sc_module_name& name, std::function<void()> action)
+      : sc_module(name), action_(std::move(action)) {
+    SC_HAS_PROCESS(Foreign);
+    SC_METHOD(act);
+  }
+  void act() {
+    if (sc_core::sc_time_stamp() == sc_core::SC_ZERO_TIME) {
+      next_trigger(5, sc_core::SC_NS);
+      return;
+    }
+    action_();
+  }
+  std::function<void()> action_;
+};
+
+TEST_F(Bench, LetsAForeignProcessActInItsPlaceInTime) {
+  std::vector<int> order;
+  Actor actor(domain);
+  Foreign foreign("foreign", [&] { order.push_back(50); });
+  actor.at(4, [&] { order.push_back(4); });
+  actor.at(6, [&] { order.push_back(6); });
+  sc_core::sc_start();
+  EXPECT_EQ(order, (std::vector<int>{4, 50, 6}));
+}
+
+}  // namespace
+}  // namespace sheaf::test
