@@ -83,7 +83,6 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     }
     at(position) = entry;
     ++num_written_;
-    if (size_ > max_size_) max_size_ = size_;
     if (position == 0) {
       update_head();
       consumer_->expect(next_arrival_);
@@ -104,6 +103,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   [[nodiscard]] const Cycles& next_arrival() const override { return next_arrival_; }
 
   T read(Cycles now) override {
+    note_occupancy(now);
     const T value = ring_[head_].value;
     last_arrival_ = next_arrival_;
     head_ = (head_ + 1) & (ring_.size() - 1);
@@ -116,6 +116,8 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   void set_consumer(Inbox& consumer) override { consumer_ = &consumer; }
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Most values held at the beginning of a cycle in which one was read, which is the most ever
+  /// held, since their number only grows between two reads.
   [[nodiscard]] std::size_t max_size() const { return max_size_; }
   [[nodiscard]] std::uint64_t num_written() const { return num_written_; }
   [[nodiscard]] const Spec& spec() const { return spec_; }
@@ -153,6 +155,12 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
 
   [[nodiscard]] Entry& at(std::size_t position) {
     return ring_[(head_ + position) & (ring_.size() - 1)];
+  }
+  // Values that a producer ahead in time has written do not count yet.
+  void note_occupancy(Cycles now) {
+    std::size_t held = size_;
+    while (held > max_size_ && at(held - 1).ready >= now) --held;
+    if (held > max_size_) max_size_ = held;
   }
   void update_head() {
     next_arrival_ = kNever;
