@@ -28,8 +28,11 @@ namespace sheaf {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-void on_interrupt(int /*signal*/) {
+
+// Asks the run to end with what it has; a second signal ends the process.
+void on_interrupt(int signal) {
   interrupted = 1;
+  std::signal(signal, SIG_DFL);
 }
 
 Vec3 to_vec(const Triple& t) {

@@ -27,8 +27,7 @@ PrivateCache::Result PrivateCache::modify(std::uint64_t line, DataKind kind, int
                                           Cycles now) {
   written_kind_ = kind;
   if (spec_.mode == CacheMode::kPerfect || array_.touch(line)) {
-    ++stats_.num_accesses;
-    ++stats_.num_hits;
+    count_hit(kind);
     if (spec_.mode == CacheMode::kNormal) array_.mark_dirty(line);
     return Result::kHit;
   }
@@ -42,7 +41,7 @@ PrivateCache::Result PrivateCache::miss(std::uint64_t line, DataKind kind, int w
     if (mshrs_[i].line != line) continue;
     mshrs_[i].waiters |= bit;
     mshrs_[i].dirty |= dirty;
-    ++stats_.num_accesses;
+    count_access(kind);
     ++stats_.num_merges;
     return Result::kPending;
   }
@@ -52,7 +51,7 @@ PrivateCache::Result PrivateCache::miss(std::uint64_t line, DataKind kind, int w
     return Result::kNoMshr;
   }
   mshrs_[num_mshrs_used_++] = {line, bit, kind, dirty};
-  ++stats_.num_accesses;
+  count_access(kind);
   ++stats_.num_misses;
   stats_.bytes_read += spec_.line;
   requests_.write_ahead(

@@ -26,6 +26,11 @@ namespace sheaf {
   X(bytes_written, "bytes", "Bytes written to the next level")
 SHEAF_STATS(CacheStats, SHEAF_CACHE_COUNTERS);
 
+#define SHEAF_CACHE_KIND_COUNTERS(X)                             \
+  X(num_accesses, "lines", "Line accesses to this kind of data") \
+  X(num_hits, "lines", "Of these, found in the cache")
+SHEAF_STATS(CacheKindStats, SHEAF_CACHE_KIND_COUNTERS);
+
 /// First-level cache of one unit with its MSHRs and its end of the link to the L2. Belongs to the
 /// unit's agent and acts when the unit does: the unit presents accesses in order of time and hands
 /// on the responses.
@@ -44,8 +49,7 @@ class PrivateCache {
   /// One access to a line at cycle `now`.
   Result read(std::uint64_t line, DataKind kind, int waiter, Cycles now) {
     if (spec_.mode == CacheMode::kPerfect || array_.touch(line)) {
-      ++stats_.num_accesses;
-      ++stats_.num_hits;
+      count_hit(kind);
       return Result::kHit;
     }
     return miss(line, kind, waiter, false, now);
@@ -63,6 +67,9 @@ class PrivateCache {
 
   [[nodiscard]] bool has_pending() const { return num_mshrs_used_ != 0; }
   [[nodiscard]] const CacheStats& stats() const { return stats_; }
+  [[nodiscard]] const CacheKindStats& kind_stats(DataKind kind) const {
+    return kind_stats_[static_cast<std::size_t>(kind)];
+  }
 
  private:
   struct Mshr {
@@ -71,6 +78,15 @@ class PrivateCache {
     DataKind kind{};
     bool dirty = false;
   };
+  void count_access(DataKind kind) {
+    ++stats_.num_accesses;
+    ++kind_stats_[static_cast<std::size_t>(kind)].num_accesses;
+  }
+  void count_hit(DataKind kind) {
+    count_access(kind);
+    ++stats_.num_hits;
+    ++kind_stats_[static_cast<std::size_t>(kind)].num_hits;
+  }
   Result miss(std::uint64_t line, DataKind kind, int waiter, bool dirty, Cycles now);
 
   const CacheSpec spec_;
@@ -83,6 +99,7 @@ class PrivateCache {
   std::uint16_t requester_;
   DataKind written_kind_{};
   CacheStats stats_;
+  std::array<CacheKindStats, kNumDataKinds> kind_stats_;
 };
 
 }  // namespace sheaf

@@ -22,6 +22,10 @@ using Kind = HeuristicChoice::Kind;
 // tables larger than any cache.
 constexpr double kMaxDirectionCells = 6.0 * 256 * 256;
 
+// Squared distances that single precision, in which the hardware compares them, can hold.
+constexpr double kMinDistance2 = 1e-30;
+constexpr double kMaxDistance2 = 1e30;
+
 [[noreturn]] void refuse(std::string_view text, std::string_view rule) {
   throw Error(ExitCode::kUsage, fmt::format("ray_cache.heuristic = '{}': {}", text, rule));
 }
@@ -64,7 +68,9 @@ HeuristicChoice HeuristicChoice::parse(std::string_view text) {
     }
     if (name == "pos") {
       const double x = parse_argument(text, argument);
-      if (!(x > 0.0)) refuse(text, "x of pos(x) must be above 0");
+      if (!(x >= kMinDistance2 && x <= kMaxDistance2)) {
+        refuse(text, "x of pos(x) must be 1e-30 to 1e30");
+      }
       return {Kind::kPos, x};
     }
   }

@@ -49,7 +49,6 @@ void OposSorter::form_packets(std::vector<Waiting>& list, Departure why, Cycles 
       const Vec3 d = list[index].ray.origin - first;
       nearest.push_back({glm::dot(d, d), index});
     }
-    nearest.front().distance2 = -1.0F;  // the first ray leads whatever shares its origin
     const auto take = std::min<std::size_t>(static_cast<std::size_t>(packet->size), left.size());
     std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(take),
                       nearest.end());

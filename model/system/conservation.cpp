@@ -56,19 +56,19 @@ void Machine::check_conservation() const {
     written += stats.bytes_written;
   };
   for (const auto& unit : traversal_units_) {
-    cache(unit->name(), unit->cache_stats());
+    cache(unit->name(), unit->cache().stats());
     check_stalls(unit->name(), *unit, end_);
   }
   for (const auto& unit : intersection_units_) {
-    cache(unit->name(), unit->cache_stats());
+    cache(unit->name(), unit->cache().stats());
     check_stalls(unit->name(), *unit, end_);
   }
   for (const auto& unit : shader_units_) {
-    cache(unit->name(), unit->attribute_cache_stats());
-    if (unit->texture_cache_stats() != nullptr) cache(unit->name(), *unit->texture_cache_stats());
+    cache(unit->name(), unit->attribute_cache().stats());
+    if (unit->texture_cache() != nullptr) cache(unit->name(), unit->texture_cache()->stats());
     check_stalls(unit->name(), *unit, end_);
   }
-  cache("film", film_->cache_stats());
+  cache("film", film_->cache().stats());
   check_stalls("film", *film_, end_);
   check_stalls("primary_source", *primary_source_, end_);
   check_stalls("packet_arbiter", *packet_arbiter_, end_);

@@ -88,25 +88,31 @@ void Machine::report_links(StatsTree& stats) const {
 }
 
 void Machine::report_memory(StatsTree& stats) const {
-  const auto cache = [&](const std::string& path, const CacheStats& counters) {
+  const auto cache = [&](const std::string& path, const PrivateCache& module) {
+    const CacheStats& counters = module.stats();
     stats.add_counters(path, counters);
     stats.add_ratio(path + ".hit_rate", counters.num_hits, counters.num_accesses, "1",
                     "Hits per access; merges are no hits");
+    for (std::size_t i = 0; i < kNumDataKinds; ++i) {
+      const auto kind = static_cast<DataKind>(i);
+      if (module.kind_stats(kind).num_accesses == 0) continue;
+      stats.add_counters(fmt::format("{}.{}", path, to_string(kind)), module.kind_stats(kind));
+    }
   };
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-    cache(fmt::format("system.traversal_unit{}.node_cache", i), traversal_units_[i]->cache_stats());
+    cache(fmt::format("system.traversal_unit{}.node_cache", i), traversal_units_[i]->cache());
   }
   for (std::size_t i = 0; i < intersection_units_.size(); ++i) {
     cache(fmt::format("system.intersection_unit{}.triangle_cache", i),
-          intersection_units_[i]->cache_stats());
+          intersection_units_[i]->cache());
   }
   for (std::size_t i = 0; i < shader_units_.size(); ++i) {
     cache(fmt::format("system.shader_unit{}.attribute_cache", i),
-          shader_units_[i]->attribute_cache_stats());
-    const CacheStats* texture = shader_units_[i]->texture_cache_stats();
+          shader_units_[i]->attribute_cache());
+    const PrivateCache* texture = shader_units_[i]->texture_cache();
     if (texture != nullptr) cache(fmt::format("system.shader_unit{}.texture_cache", i), *texture);
   }
-  cache("system.film.cache", film_->cache_stats());
+  cache("system.film.cache", film_->cache());
   stats.add_counters("system.l2", l2_->stats());
   stats.add_ratio("system.l2.hit_rate", l2_->stats().num_hits, l2_->stats().num_accesses, "1",
                   "Hits per request; merges are no hits");

@@ -95,6 +95,8 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"trace.primary, trace.secondary", "Work of the packets", TraceCounts::infos()},
       CounterGroup{"system.film", "Frame buffer", FilmStats::infos()},
       CounterGroup{"system.<unit><n>.<cache>", "Private caches", CacheStats::infos()},
+      CounterGroup{"system.<unit><n>.<cache>.<kind of data>", "The same by kind of data",
+                   CacheKindStats::infos()},
       CounterGroup{"system.l2", "Shared second-level cache", L2Stats::infos()},
       CounterGroup{"system.l2.<kind of data>", "The same by kind of data", L2KindStats::infos()},
       CounterGroup{"system.dram", "Memory behind the TLM socket", DramStats::infos()},

@@ -38,7 +38,7 @@ class FilmUnit final : public sc_core::sc_module, public Agent {
   [[nodiscard]] std::string stuck_reason() const override;
 
   [[nodiscard]] const FilmStats& stats() const { return stats_; }
-  [[nodiscard]] const CacheStats& cache_stats() const { return cache_.stats(); }
+  [[nodiscard]] const PrivateCache& cache() const { return cache_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
 

@@ -24,7 +24,7 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   sc_core::sc_port<TimedIn<LineResponse>> in_lines;
   sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
 
-  [[nodiscard]] const CacheStats& cache_stats() const { return cache_.stats(); }
+  [[nodiscard]] const PrivateCache& cache() const { return cache_; }
   [[nodiscard]] std::string stuck_reason() const override;
 
  private:

@@ -52,9 +52,10 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   /// Unbound if nothing in the scene spawns a ray.
   sc_core::sc_port<TimedOut<SpawnBundle*>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> out_bundles;
 
-  [[nodiscard]] const CacheStats& attribute_cache_stats() const { return attributes_.stats(); }
-  [[nodiscard]] const CacheStats* texture_cache_stats() const {
-    return textures_ ? &textures_->stats() : nullptr;
+  [[nodiscard]] const PrivateCache& attribute_cache() const { return attributes_; }
+  /// Null if the scene has no textures.
+  [[nodiscard]] const PrivateCache* texture_cache() const {
+    return textures_ ? &*textures_ : nullptr;
   }
   [[nodiscard]] std::string stuck_reason() const override;
 
