@@ -13,7 +13,7 @@ struct RunOptions {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> config;
   std::vector<std::string> settings;  ///< key=value, in order
-  std::filesystem::path out;          ///< empty: results/<name of the scene>
+  std::filesystem::path out;          ///< empty: result/<name of the scene>
   bool quiet = false;                 ///< no summary on standard output
 };
 

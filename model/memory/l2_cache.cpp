@@ -175,7 +175,9 @@ void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles at) 
   tlm::tlm_phase phase = tlm::BEGIN_REQ;
   sc_core::sc_time delay = domain_.offset(at);
   const tlm::tlm_sync_enum status = to_dram->nb_transport_fw(*payload, phase, delay);
-  if (status == tlm::TLM_COMPLETED) {
+  const bool answered =
+      status == tlm::TLM_COMPLETED || (status == tlm::TLM_UPDATED && phase == tlm::BEGIN_RESP);
+  if (answered) {
     dram_done(*payload, domain_.cycle_at(delay));
     payload->release();
   } else {

@@ -30,7 +30,7 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
   plan.texture_cache =
       want(needs.textures, "texture cache and UVs", "no material in use has a texture");
   if (!config.measure.coherence) {
-    plan.left_out.push_back({"coherence pass (c_t, c_i)", "measure.coherence is false"});
+    plan.left_out.push_back({"coherence pass", "measure.coherence is false"});
   }
   if (config.image.heat_maps.empty()) {
     plan.left_out.push_back({"heat maps", "image.heat_maps is empty"});

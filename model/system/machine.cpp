@@ -26,7 +26,8 @@ AnswerTimes answer_times(const Config& config) {
   const UnitSpec& unit = config.intersection_unit;
   const Cycles hit = config.triangle_cache.hit_latency;
   const Cycles slots = (config.packet.size + unit.lanes - 1) / unit.lanes;
-  return {.link = config.link.latency,
+  // Whatever comes next may come over a link between units or as a line from the L2.
+  return {.link = std::min(config.link.latency, config.link.memory_latency),
           .line = 2 * config.link.memory_latency,
           .leaf_fixed = 2 * config.link.latency + hit,
           .leaf_test = slots * unit.initiation_interval - 1 + hit + unit.latency};

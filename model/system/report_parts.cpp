@@ -4,11 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "kdtree/kd_stats.h"
 #include "memory/fixed_dram.h"
 #include "memory/l2_cache.h"
+#include "system/coherence.h"
 #include "units/film_unit.h"
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
@@ -80,7 +83,11 @@ void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& 
   stats.add("memory.footprint", scene.memory.total_size(), "bytes",
             "Simulated memory that tree, triangles, attributes, textures and frame buffer take");
   for (const auto& [what, why] : plan.left_out)
-    stats.add_text("left_out." + what, why, "Not built");
+    std::string name = what;
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    stats.add_text("left_out." + name, why, "Not built");
 }
 
 std::span<const CounterGroup> counter_groups() {
@@ -93,6 +100,9 @@ std::span<const CounterGroup> counter_groups() {
                    PipelineStats::infos()},
       CounterGroup{"system.<unit>", "Every unit: what each cycle went to", kStallInfos},
       CounterGroup{"trace.primary, trace.secondary", "Work of the packets", TraceCounts::infos()},
+      CounterGroup{"coherence.primary, coherence.secondary",
+                   "Only with measure.coherence: one untimed pass of single rays",
+                   CoherenceCounts::infos()},
       CounterGroup{"system.film", "Frame buffer", FilmStats::infos()},
       CounterGroup{"system.<unit><n>.<cache>", "Private caches", CacheStats::infos()},
       CounterGroup{"system.<unit><n>.<cache>.<kind of data>", "The same by kind of data",

@@ -24,7 +24,7 @@ struct TracedScene {
 
 /// Lower bounds on when answers come, from which a unit knows how far it may run ahead.
 struct AnswerTimes {
-  Cycles link = 1;        ///< latency of a link between units
+  Cycles link = 1;        ///< the least latency of any link that ends in the unit
   Cycles line = 2;        ///< from a request for a line to its arrival
   Cycles leaf_fixed = 2;  ///< of a leaf job, from sending to the answer's arrival, without tests
   Cycles leaf_test = 1;   ///< for each test

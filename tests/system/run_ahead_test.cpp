@@ -37,6 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"intersection_unit.contexts=1", "intersection_unit.latency=50",
                              "traversal_unit.contexts=16", "link.depth=1"},
                     Settings{"shader_unit.initiation_interval=100", "link.depth=1"},
+                    Settings{"link.memory_latency=1"}, Settings{"link.latency=1"},
                     Settings{"node_cache.mshrs=1", "triangle_cache.mshrs=1", "l2.mshrs=1"},
                     Settings{"l2.mode=absent", "dram.latency=1000", "flow.control=credits"}));
 
