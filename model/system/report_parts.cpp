@@ -82,11 +82,13 @@ void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& 
   stats.add("kdtree.depth", static_cast<std::uint64_t>(tree.depth), "nodes", "Longest path");
   stats.add("memory.footprint", scene.memory.total_size(), "bytes",
             "Simulated memory that tree, triangles, attributes, textures and frame buffer take");
-  for (const auto& [what, why] : plan.left_out) std::string name = what;
-  std::replace_if(
-      name.begin(), name.end(),
-      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-  stats.add_text("left_out." + name, why, "Not built");
+  for (const auto& [what, why] : plan.left_out) {
+    std::string name = what;
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    stats.add_text("left_out." + name, why, "Not built");
+  }
 }
 
 std::span<const CounterGroup> counter_groups() {

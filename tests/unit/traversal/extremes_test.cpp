@@ -146,8 +146,11 @@ TEST(Extremes, NeedlesAndDuplicates) {
 }
 
 TEST(Extremes, OverflowingArithmeticYieldsNoHitAtInfinity) {
+  // One wall ahead and one behind, so that the origin lies inside the bounds.
   Mesh mesh;
-  mesh.add(Vec3(-1e30F, -1e30F, 1e30F), Vec3(1e30F, -1e30F, 1e30F), Vec3(0.0F, 1e30F, 1e30F));
+  for (const float z : {1e30F, -1e30F}) {
+    mesh.add(Vec3(-1e18F, -1e18F, z), Vec3(1e18F, -1e18F, z), Vec3(0.0F, 1e18F, z));
+  }
   const TestScene scene(mesh);
   const Ray ray = make_ray(Vec3(0.0F), Vec3(0.0F, 0.0F, 1e-20F));
   EXPECT_EQ(trace_one(scene, ray, TraversalScheme::kSingle).triangle, kNoHit);

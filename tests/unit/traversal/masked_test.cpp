@@ -139,6 +139,31 @@ TEST_F(MaskedTest, ALaneFaresInAPacketAsAlone) {
   }
 }
 
+// Where the origin, moved by the error bound, meets a plane that the ray runs along, the distance
+// to the plane is 0 · infinity, and every kernel must make the same of it: both sides count.
+TEST_F(MaskedTest, DistancesThatAreNotNumbersAreTakenAlike) {
+  Random random(26);
+  for (int plane = 0; plane <= 4; ++plane) {
+    for (int ulps = -100; ulps <= 100; ++ulps) {
+      for (const float zero : {0.0F, -0.0F}) {
+        const auto axis = static_cast<int>(random.below(3));
+        Ray ray = random_ray(random, lattice_.tree.bounds);
+        ray.origin[axis] = static_cast<float>(plane) + static_cast<float>(ulps) * 0x1p-23F;
+        ray.direction[axis] = zero;
+        RayPacket packet;
+        packet.clear(2);  // two, for one alone would leave the vector kernel
+        packet.put(0, ray);
+        packet.put(1, ray);
+        const Walk masked = walk(lattice_, TraversalScheme::kMasked, packet);
+        const Walk single = walk(lattice_, TraversalScheme::kSingle, packet);
+        ASSERT_NO_FATAL_FAILURE(expect_same_hits(masked.packet, single.packet));
+        ASSERT_EQ(masked.lanes.inner_visits, single.lanes.inner_visits);
+        ASSERT_EQ(masked.lanes.triangle_tests, single.lanes.triangle_tests);
+      }
+    }
+  }
+}
+
 TEST_F(MaskedTest, WhatIsRecordedDoesNotChangeWhatIsFound) {
   Random random(24);
   for (int i = 0; i < 60; ++i) {
