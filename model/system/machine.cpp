@@ -26,9 +26,7 @@ AnswerTimes answer_times(const Config& config) {
   const UnitSpec& unit = config.intersection_unit;
   const Cycles hit = config.triangle_cache.hit_latency;
   const Cycles slots = (config.packet.size + unit.lanes - 1) / unit.lanes;
-  // Whatever comes next may come over a link between units or as a line from the L2.
-  return {.link = std::min(config.link.latency, config.link.memory_latency),
-          .line = 2 * config.link.memory_latency,
+  return {.line = 2 * config.link.memory_latency,
           .leaf_fixed = 2 * config.link.latency + hit,
           .leaf_test = slots * unit.initiation_interval - 1 + hit + unit.latency};
 }
@@ -52,6 +50,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
+  flow_.declare_links();
 }
 
 Machine::~Machine() = default;
@@ -218,7 +217,7 @@ bool Machine::run(const Monitor& monitor) {
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
-  end_ = domain_.now() + 1;
+  end_ = domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   finish_accounts(end_);
   if (domain_.ran_dry()) {

@@ -46,6 +46,17 @@ class FlowControl {
   void bind_source(Inbox& inbox) { source_ = &inbox; }
   void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }
   void bind_film(Inbox& inbox) { film_ = &inbox; }
+  void bind_shader(const Inbox& inbox) { shaders_.push_back(inbox.agent()); }
+  /// Tells the clock domain who is woken by whose changes, once all have been bound.
+  void declare_links() const {
+    for (const Inbox* woken : {source_, regrouper_, film_}) {
+      if (woken == nullptr) continue;
+      for (const std::size_t shader : shaders_) {
+        woken->domain().declare_link(shader, woken->agent(), kNotice);
+      }
+      woken->domain().declare_link(source_->agent(), woken->agent(), kNotice);
+    }
+  }
 
   [[nodiscard]] bool by_tile() const { return by_tile_; }
   [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
@@ -92,8 +103,9 @@ class FlowControl {
   [[nodiscard]] bool finished() const { return live_ == 0 && source_state_ == Source::kExhausted; }
 
  private:
+  static constexpr Cycles kNotice = 1;  ///< from a change to the wake-up of who waits for it
   static void nudge(Inbox* inbox, Cycles now) {
-    if (inbox != nullptr) inbox->nudge(now + 1);
+    if (inbox != nullptr) inbox->nudge(now + kNotice);
   }
 
   const WorstCase worst_case_;
@@ -107,6 +119,7 @@ class FlowControl {
   Inbox* source_ = nullptr;
   Inbox* regrouper_ = nullptr;
   Inbox* film_ = nullptr;
+  std::vector<std::size_t> shaders_;
 };
 
 }  // namespace sheaf

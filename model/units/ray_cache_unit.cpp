@@ -25,6 +25,7 @@ RayCacheUnit::RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSp
 
 void RayCacheUnit::end_of_elaboration() {
   in_bundles->set_consumer(inbox_);
+  out_packets->add_producer(inbox_);
 }
 
 Cycles RayCacheUnit::wake(Cycles now) {
@@ -36,6 +37,7 @@ Cycles RayCacheUnit::wake(Cycles now) {
 }
 
 Cycles RayCacheUnit::act(Cycles now) {
+  domain_.happened(now);
   if (!send_departures(now)) {
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return kNever;  // woken when the FIFO has room
