@@ -14,7 +14,7 @@ namespace sheaf {
 // are declared in parameters.cpp, and `sheaf config` prints them.
 
 enum class Fidelity : std::uint8_t { kFunctional, kTimed };
-enum class Scheme : std::uint8_t { kSingle, kMasked };
+enum class Scheme : std::uint8_t { kSingle, kMasked, kInterval, kIntervalEntry, kOmni };
 enum class FlowPolicy : std::uint8_t { kTile, kCredits };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
 enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };

@@ -44,8 +44,14 @@ void declare_pipeline(ParameterTable& t, Config& c) {
   t.frequency("clock.frequency", c.clock.frequency, 1e9, 1e3, 1e12, "Core clock of the machine");
   t.count("packet.size", c.packet.size, 16, 1, 64, "rays", "Rays of a full packet");
   t.choice("traversal.scheme", c.traversal_scheme, Scheme::kMasked,
-           {{"single", Scheme::kSingle}, {"masked", Scheme::kMasked}},
-           "How a packet walks the kd-tree: ray by ray, or together with an active mask");
+           {{"single", Scheme::kSingle},
+            {"masked", Scheme::kMasked},
+            {"interval", Scheme::kInterval},
+            {"interval_entry", Scheme::kIntervalEntry},
+            {"omni", Scheme::kOmni}},
+           "How a packet walks the kd-tree: ray by ray; together with an active mask; with one "
+           "interval for all of a direction octant, from the root or from an entry point searched "
+           "first; or with an active mask in one pass, whatever the directions");
   t.choice("flow.control", c.flow.control, FlowPolicy::kTile,
            {{"tile", FlowPolicy::kTile}, {"credits", FlowPolicy::kCredits}},
            "What keeps the spawned rays within bounds: finishing a tile before the next begins, or "

@@ -40,7 +40,19 @@ FlowControl make_flow_control(const Config& config, const BuildPlan& plan, const
 }
 
 TraversalScheme scheme_of(Scheme scheme) {
-  return scheme == Scheme::kSingle ? TraversalScheme::kSingle : TraversalScheme::kMasked;
+  switch (scheme) {
+    case Scheme::kSingle:
+      return TraversalScheme::kSingle;
+    case Scheme::kMasked:
+      return TraversalScheme::kMasked;
+    case Scheme::kInterval:
+      return TraversalScheme::kInterval;
+    case Scheme::kIntervalEntry:
+      return TraversalScheme::kIntervalEntry;
+    case Scheme::kOmni:
+      return TraversalScheme::kOmni;
+  }
+  return TraversalScheme::kMasked;
 }
 
 }  // namespace sheaf

@@ -147,7 +147,8 @@ void TraversalUnit::issue(int number, Cycles now) {
   const auto outcome = fetcher_.fetch(number, 1, DataKind::kNode, line, now);
   if (outcome.complete) {
     context.phase = Phase::kStepIssued;
-    occupy(number, slots_per_step_, cache_.hit_latency(), 0, now);
+    const TraceStep& step = context.log[context.position];
+    occupy(number, step_slots(scene_.scheme, step, slots_per_step_), cache_.hit_latency(), 0, now);
   } else {
     park(number, now + times_.line);
     occupy_missed(0, now);
