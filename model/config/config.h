@@ -17,6 +17,7 @@ enum class Fidelity : std::uint8_t { kFunctional, kTimed };
 enum class Scheme : std::uint8_t { kSingle, kMasked, kInterval, kIntervalEntry, kOmni };
 enum class FlowPolicy : std::uint8_t { kTile, kCredits };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
+enum class RayOrder : std::uint8_t { kArrival, kBreadthFirst };
 enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };
 enum class FilmFormat : std::uint8_t { kUnorm8, kHalf, kFloat, kExact };
 enum class CacheMode : std::uint8_t { kNormal, kPerfect, kAbsent };
@@ -87,6 +88,9 @@ struct RayCacheSpec {
   std::uint32_t cells{};
   std::optional<double> pos_relative;
   VictimPolicy victim{};
+  RayOrder order{};
+  bool group_by_kind{};
+  std::uint32_t resident_voxels{};
   Cycles timeout{};
   std::uint32_t rays_per_cycle{};
   Cycles latency{};

@@ -67,10 +67,10 @@ void declare_pipeline(ParameterTable& t, Config& c) {
             {"secondary_first", ArbiterPolicy::kSecondaryFirst}},
            "Which packet a free traversal context gets");
   t.text("ray_cache.heuristic", c.ray_cache.heuristic, "dir",
-         "How rays are sorted: none, dir, mdir(x), fastpos, pos(x) or opos");
+         "How rays are sorted: none, dir, mdir(x), fastpos, pos(x), opos, ray5d(x) or grid(x)");
   t.count("ray_cache.cells", c.ray_cache.cells, 0, 0, 65536, "cells",
           "Cells of the ray cache; 0 = as many as the heuristic has keys (dir and fastpos 8, "
-          "mdir(x) x, pos 64)");
+          "mdir(x) x, ray5d(x) 6 * 32^x but at most 192, pos and grid 64)");
   t.optional_real("pos.relative", c.ray_cache.pos_relative, 0.0, 1.0, "1",
                   "The x of pos(x) as a fraction of the squared scene diagonal instead of squared "
                   "world units");
@@ -79,6 +79,14 @@ void declare_pipeline(ParameterTable& t, Config& c) {
             {"oldest", VictimPolicy::kOldest},
             {"lru", VictimPolicy::kLru}},
            "Which cell is evicted when a ray needs a new one and none is free");
+  t.choice("ray_cache.order", c.ray_cache.order, RayOrder::kArrival,
+           {{"arrival", RayOrder::kArrival}, {"breadth_first", RayOrder::kBreadthFirst}},
+           "When spawned rays are sorted: as they arrive; or held back, without bound but for flow "
+           "control, until nothing else is left, and then kind by kind, shadow rays first");
+  t.flag("ray_cache.group_by_kind", c.ray_cache.group_by_kind, false,
+         "Keep reflections, refractions and shadow rays in cells apart; none always does");
+  t.count("ray_cache.resident_voxels", c.ray_cache.resident_voxels, 4, 0, 1024, "voxels",
+          "Voxels of grid(x) scheduled last that are taken to be in the caches");
   t.count("ray_cache.timeout", c.ray_cache.timeout, 0, 0, kMaxCount, "cycles",
           "A cell that has been open for longer leaves as a packet; 0 = never");
   t.count("ray_cache.rays_per_cycle", c.ray_cache.rays_per_cycle, 4, 1, 64, "rays",

@@ -21,7 +21,8 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
                               bounces ? "no material transmits" : no_bounces);
   plan.secondary_rays = want(plan.shadow_rays || plan.reflection_rays || plan.refraction_rays,
                              "packet FIFO", "no ray is ever spawned");
-  const bool sorts = plan.heuristic.kind != HeuristicChoice::Kind::kNone;
+  const bool sorts = plan.heuristic.kind != HeuristicChoice::Kind::kNone ||
+                     config.ray_cache.order != RayOrder::kArrival;
   plan.ray_cache = plan.secondary_rays && sorts;
   if (!plan.ray_cache) {
     plan.left_out.push_back(
@@ -44,6 +45,9 @@ SorterOptions sorter_options(const Config& config, const BuildPlan& plan, const 
   options.num_cells =
       config.ray_cache.cells != 0 ? config.ray_cache.cells : plan.heuristic.natural_cells();
   options.victim = config.ray_cache.victim;
+  options.group_by_kind = config.ray_cache.group_by_kind;
+  options.resident_voxels = config.ray_cache.resident_voxels;
+  options.order = config.ray_cache.order;
   if (config.ray_cache.pos_relative && plan.heuristic.kind == HeuristicChoice::Kind::kPos) {
     const Vec3d diagonal(scene_bounds.extent());
     options.heuristic.x = *config.ray_cache.pos_relative * glm::dot(diagonal, diagonal);

@@ -41,8 +41,11 @@ Choices each_unit(const std::string& parameter, const std::vector<std::string>& 
 
 /// Everything that must not matter.
 std::vector<Choices> choices() {
-  return {each("ray_cache.heuristic",
-               {"none", "dir", "mdir(24)", "mdir(96)", "fastpos", "pos(1.0)", "opos"}),
+  return {each("ray_cache.heuristic", {"none", "dir", "mdir(24)", "mdir(96)", "fastpos", "pos(1.0)",
+                                       "opos", "ray5d(1)", "grid(4)"}),
+          each("ray_cache.order", {"arrival", "breadth_first"}),
+          each("ray_cache.group_by_kind", {"false", "true"}),
+          each("ray_cache.resident_voxels", {"0", "4"}),
           each("packet.size", {"1", "3", "4", "16", "17", "64"}),
           each("ray_cache.cells", {"1", "2", "8", "96"}),
           each("ray_cache.victim", {"fullest", "oldest", "lru"}),
