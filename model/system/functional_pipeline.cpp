@@ -11,15 +11,15 @@
 namespace sheaf {
 
 FunctionalPipeline::FunctionalPipeline(const Config& config, const BuildPlan& plan,
-                                       const PreparedScene& scene, Frame& frame)
+                                       const PreparedScene& scene, Frame& frame,
+                                       const RunHooks& hooks)
     : config_(config),
       plan_(plan),
       scene_(scene),
       frame_(frame),
       packets_(static_cast<int>(config.packet.size)),
-      shader_(scene.scene,
-              {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
-              &frame.layers),
+      shader_(make_shader(config, scene.scene, frame)),
+      shading_source_(hooks.shading != nullptr ? *hooks.shading : shader_),
       flow_(make_flow_control(config, plan, scene.scene)),
       order_(config.image.width, config.image.height, config.flow.tile_size,
              static_cast<int>(config.packet.size)) {
@@ -92,7 +92,7 @@ void FunctionalPipeline::process(RayPacket* packet, TraceCounts& counts) {
   trace_packet(scheme_of(config_.traversal_scheme), scene_.tree, scene_.triangles, *packet, nullptr,
                per_lane ? &lanes_ : nullptr, counts);
   if (per_lane) frame_.heat.add(*packet, lanes_);
-  shader_.shade(*packet, shading_);
+  shading_source_.shade(*packet, shading_);
   for (const PixelContribution& contribution : shading_.contributions) {
     frame_.film->add(contribution.pixel, contribution.radiance);
   }

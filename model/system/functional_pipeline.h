@@ -11,6 +11,7 @@
 #include "system/build_plan.h"
 #include "system/frame.h"
 #include "system/prepared_scene.h"
+#include "system/run_hooks.h"
 #include "units/shader_unit.h"
 
 namespace sheaf {
@@ -21,7 +22,7 @@ namespace sheaf {
 class FunctionalPipeline {
  public:
   FunctionalPipeline(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
-                     Frame& frame);
+                     Frame& frame, const RunHooks& hooks = {});
 
   /// Called once a tile with the share of the tiles that have been begun; returns true to stop.
   using Monitor = std::function<bool(double progress)>;
@@ -46,6 +47,7 @@ class FunctionalPipeline {
   Frame& frame_;
   PacketPool packets_;
   PacketShader shader_;
+  ShadingSource& shading_source_;
   FlowControl flow_;
   TileOrder order_;
   std::unique_ptr<RaySorter> sorter_;

@@ -34,15 +34,14 @@ AnswerTimes answer_times(const Config& config) {
 }  // namespace
 
 Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
-                 Frame& frame)
+                 Frame& frame, const RunHooks& hooks)
     : config_(config),
       plan_(plan),
       scene_(scene),
       frame_(frame),
       packets_(static_cast<int>(config.packet.size)),
-      shader_(scene.scene,
-              {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
-              &frame.layers),
+      shader_(make_shader(config, scene.scene, frame)),
+      hooks_(hooks),
       flow_(make_flow_control(config, plan, scene.scene)),
       domain_("clock_domain", period_of(config.clock.frequency)),
       links_(std::make_unique<Links>()) {
@@ -83,7 +82,8 @@ void Machine::build_units() {
   const int packet_size = static_cast<int>(config_.packet.size);
   const TracedScene traced{scene_.tree, scene_.triangles, scene_.memory,
                            scheme_of(config_.traversal_scheme)};
-  const ShadedScene shaded{scene_.scene, shader_,  scene_.memory, packets_,
+  ShadingSource& shading = hooks_.shading != nullptr ? *hooks_.shading : shader_;
+  const ShadedScene shaded{scene_.scene, shading,  scene_.memory, packets_,
                            bundles_,     batches_, frame_.rays,   flow_};
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,

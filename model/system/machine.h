@@ -16,6 +16,7 @@
 #include "system/build_plan.h"
 #include "system/frame.h"
 #include "system/prepared_scene.h"
+#include "system/run_hooks.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
 #include "units/packet_arbiter.h"
@@ -33,7 +34,8 @@ using PacketChannel = TimedChannel<RayPacket*>;
 /// bound and ready to run once. One machine a process (SystemC).
 class Machine {
  public:
-  Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame);
+  Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
+          const RunHooks& hooks = {});
   ~Machine();
 
   /// Called now and then with the share of the tiles that have been begun; returns true to stop.
@@ -70,6 +72,7 @@ class Machine {
   ObjectPool<SpawnBundle> bundles_;
   ObjectPool<FilmBatch> batches_;
   PacketShader shader_;
+  const RunHooks hooks_;
   FlowControl flow_;
   ClockDomain domain_;
   std::unique_ptr<Links> links_;

@@ -39,6 +39,12 @@ FlowControl make_flow_control(const Config& config, const BuildPlan& plan, const
   return {config.flow, worst, credits(config, worst)};
 }
 
+PacketShader make_shader(const Config& config, const Scene& scene, Frame& frame) {
+  return {scene,
+          {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
+          &frame.layers};
+}
+
 TraversalScheme scheme_of(Scheme scheme) {
   switch (scheme) {
     case Scheme::kSingle:

@@ -23,7 +23,7 @@ using FilmBatch = std::vector<PixelContribution>;
 /// What the shader units share.
 struct ShadedScene {
   const Scene& scene;
-  const PacketShader& shader;
+  ShadingSource& shader;
   const MemoryMap& memory;
   PacketPool& packets;
   ObjectPool<SpawnBundle>& bundles;
