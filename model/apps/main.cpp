@@ -24,7 +24,19 @@ struct Commands {
   sheaf::RunOptions run;
   std::string info_scene;
   bool schema = false;
+  bool resolve = false;
+  sheaf::RunOptions resolved;
 };
+
+void declare_settings(CLI::App& command, sheaf::RunOptions& options) {
+  command.add_option("--config", options.config, "TOML file with parameters of the machine");
+  command
+      .add_option("--set", options.settings,
+                  "Set one parameter, for example --set ray_cache.heuristic=mdir(96); repeatable")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
 
 void declare(CLI::App& app, Commands& commands) {
   app.require_subcommand(1);
@@ -33,31 +45,39 @@ void declare(CLI::App& app, Commands& commands) {
 
   CLI::App* run = app.add_subcommand("run", "Simulate one frame of a scene on one machine");
   run->add_option("SCENE", commands.run.scene, "glTF 2.0 file (.gltf or .glb)")->required();
-  run->add_option("--config", commands.run.config, "TOML file with parameters of the machine");
-  run->add_option("--set", commands.run.settings,
-                  "Set one parameter, for example --set ray_cache.heuristic=mdir(96); repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  declare_settings(*run, commands.run);
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
+  run->add_option("--parent", commands.run.parent,
+                  "End with the process of this number, which must have started this one");
   run->footer(kFooter);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
 
   CLI::App* config = app.add_subcommand("config", "Print every parameter with default and meaning");
-  config->add_flag("--schema", commands.schema, "Print a JSON schema instead");
+  CLI::Option* schema =
+      config->add_flag("--schema", commands.schema, "Print a JSON schema instead");
+  CLI::Option* resolve =
+      config->add_flag("--resolve", commands.resolve,
+                       "Print the configuration that --config and --set make instead");
+  resolve->excludes(schema);
+  declare_settings(*config, commands.resolved);
+  for (const char* setting : {"--config", "--set"}) config->get_option(setting)->needs(resolve);
   app.add_subcommand("counters", "Print every counter with unit and meaning");
+}
+
+std::string config_output(const Commands& commands) {
+  if (commands.schema) return sheaf::config_schema();
+  if (commands.resolve) return sheaf::resolved_config(commands.resolved);
+  return sheaf::describe_parameters();
 }
 
 int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("config")) {
-    const std::string text =
-        commands.schema ? sheaf::config_schema() : sheaf::describe_parameters();
-    std::fputs(text.c_str(), stdout);
+    std::fputs(config_output(commands).c_str(), stdout);
   } else {
     std::fputs(sheaf::print_counters(sheaf::counter_groups()).c_str(), stdout);
   }

@@ -7,7 +7,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <tuple>
 
+#include "apps/parent_death.h"
 #include "base/errors.h"
 #include "config/check_config.h"
 #include "config/config_text.h"
@@ -98,6 +100,7 @@ std::filesystem::path output_folder(const RunOptions& options) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
+  if (options.parent) end_with_parent(*options.parent);
   const Config config = resolve_config(options.config, options.settings);
   const HeuristicChoice heuristic = HeuristicChoice::parse(config.ray_cache.heuristic);
   std::signal(SIGINT, on_interrupt);
@@ -147,6 +150,12 @@ int run_command(const RunOptions& options) {
   std::fputs("sheaf: stopped before the frame was complete; the results are marked as partial\n",
              stderr);
   return static_cast<int>(interrupted != 0 ? ExitCode::kInterrupted : ExitCode::kOk);
+}
+
+std::string resolved_config(const RunOptions& options) {
+  const Config config = resolve_config(options.config, options.settings);
+  std::ignore = HeuristicChoice::parse(config.ray_cache.heuristic);
+  return config_toml(config, Comments::kMeanings);
 }
 
 int info_command(const std::filesystem::path& scene) {
