@@ -78,7 +78,7 @@ def test_a_wider_spec_runs_only_what_is_new(sweep: Sweep, stand_in: Simulator) -
 def test_failures_are_told_kept_and_do_not_stop_the_others(
     sweep: Sweep, tmp_path: Path, stand_in: Simulator
 ) -> None:
-    text = "[limits]\ntime = '0.5s'\nretries = 1\n" + axis("dram.latency", [10, 13, 14, 15, 17, 18])
+    text = "[limits]\ntime = '0.5s'\nretries = 1\n" + axis("dram.latency", [10, 13, 14, 15, 17, 19])
     done = sweep(text)
     assert done.returncode == 1
     failures = [json.loads(p.read_text()) for p in (tmp_path / "out/failures").iterdir()]

@@ -75,8 +75,8 @@ def _join(choice: ClusterChoice) -> Client:
         if choice.scheduler_file is not None:
             if not choice.scheduler_file.is_file():
                 raise ExploreError(f"{place}: no such scheduler file", Exit.CLUSTER)
-            return Client(scheduler_file=str(choice.scheduler_file), timeout="20s")
-        return Client(choice.scheduler, timeout="20s")
+            return Client(scheduler_file=str(choice.scheduler_file), timeout="10s")
+        return Client(choice.scheduler, timeout="10s")
     except (OSError, TimeoutError, ValueError) as error:
         reason = str(error) or "no answer"
         raise ExploreError(f"{place}: no Dask scheduler there: {reason}", Exit.CLUSTER) from None
