@@ -129,6 +129,8 @@ def _command(process: psutil.Process) -> list[str]:
 
 def disturb(driver: Driver, what: str) -> bool:
     """Kills one simulator, one worker or the sweep; false if it ended first."""
+    if driver.process.poll() is not None:
+        return False
     if what == "sweep":
         _, left = psutil.wait_procs(driver.kill_all(), timeout=15)
         assert not left, "processes outlived their sweep"

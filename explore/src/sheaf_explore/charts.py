@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +18,8 @@ WIDTH, HEIGHT = 460, 300
 _SCALE_DOWN = {"bits": (8 * 1024, "KiB"), "bytes": (1024, "KiB")}
 # Colours that people with colour-blindness tell apart (Okabe and Ito 2008).
 _COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
-_TOP = alt.Axis(format="~s")
+_SMALLEST_SHARE = 0.001  # of variance, below which an axis is not drawn
+_SHORT = alt.Axis(format="~s")
 
 _PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes")
 _ENERGY_COLUMNS = ("energy.total", "system.energy.total", "system.energy", "derived.energy")
@@ -118,10 +120,10 @@ def axis_plot(table: Table, axis: Axis, measure: str, number: int) -> Plot:
     numeric = len(axis.labels) > 12 and pd.api.types.is_numeric_dtype(table.frame[axis.name].dtype)
     if numeric:
         data["x"] = table.frame[axis.name].astype(float)
-        x = alt.X("x:Q", title=axis.name, scale=alt.Scale(zero=False), axis=_TOP)
+        x = alt.X("x:Q", title=axis.name, scale=alt.Scale(zero=False), axis=_SHORT)
     else:
         x = alt.X("x:N", sort=order, title=axis.name, axis=alt.Axis(labelAngle=0, labelLimit=90))
-    y = alt.Y("y:Q", title=_axis_title(table, measure), scale=alt.Scale(zero=False), axis=_TOP)
+    y = alt.Y("y:Q", title=_axis_title(table, measure), scale=alt.Scale(zero=False), axis=_SHORT)
     base = alt.Chart(data).encode(x=x, color=colour)
     dots = base.mark_circle(size=28, opacity=0.45).encode(
         y=y, tooltip=["point:N", "x:N", "y:Q", "colour:N"]
@@ -158,9 +160,12 @@ def pareto_plot(table: Table, cost: str, against: str, number: int) -> Plot:
     for _, rows in data.groupby("scene"):
         data.loc[rows.index, "front"] = pareto_front(rows[["x", "y"]].to_numpy(dtype=float))
     x = alt.X(
-        "x:Q", title=f"{cost} [{shown}]" if shown else cost, scale=alt.Scale(zero=False), axis=_TOP
+        "x:Q",
+        title=f"{cost} [{shown}]" if shown else cost,
+        scale=alt.Scale(zero=False),
+        axis=_SHORT,
     )
-    y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_TOP)
+    y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_SHORT)
     colour = alt.Color("scene:N", scale=alt.Scale(range=_COLOURS))
     tooltip = ["point:N", "place:N", "scene:N", "x:Q", "y:Q"]
     base = alt.Chart(data).encode(x=x, y=y, color=colour, tooltip=tooltip)
@@ -218,7 +223,7 @@ def sensitivity_plot(table: Table, measures: list[str]) -> Plot | None:
             order=alt.Order("rank:Q"),
             tooltip=["measure:N", "axis:N", alt.Tooltip("share:Q", format=".1%")],
         )
-        .transform_calculate(rank=f"indexof({names!r}, datum.axis)")
+        .transform_calculate(rank=f"indexof({json.dumps(names)}, datum.axis)")
         .properties(width=WIDTH, height=34 * len({row["measure"] for row in rows}))
     )
     text = (
@@ -246,7 +251,7 @@ def explorer(table: Table, most_values: int = 600_000) -> Plot:
     start = measures_of(table)
     y_first = start[0] if start and start[0] in counters else (counters or all_names)[0]
     order = {axis.name: axis.labels for axis in table.axes}
-    ranks = ", ".join(f"{name!r}: {labels!r}" for name, labels in order.items())
+    ranks = json.dumps(order)
 
     def choose(name: str, options: list[str], value: str) -> Any:
         return alt.param(
@@ -263,12 +268,14 @@ def explorer(table: Table, most_values: int = 600_000) -> Plot:
             x="datum[across]",
             y="datum[up]",
             hue="datum[colour]",
-            rank=f"indexof(({{{ranks}}})[across] || [], datum[across])",
+            rank=f"indexof(({ranks})[across] || [], datum[across])",
         )
         .encode(
             x=alt.X("x:N", title=None, sort=alt.EncodingSortField("rank", op="min")),
-            y=alt.Y("y:Q", title=None, scale=alt.Scale(zero=False), axis=_TOP),
-            color=alt.Color("hue:N", title=None),
+            y=alt.Y("y:Q", title=None, scale=alt.Scale(zero=False), axis=_SHORT),
+            color=alt.Color(
+                "hue:N", title=None, sort=[label for axis in table.axes for label in axis.labels]
+            ),
             tooltip=["point:N", "scene:N", "x:N", "y:Q", "hue:N"],
         )
         .add_params(x, y, hue)
@@ -281,10 +288,16 @@ def all_plots(table: Table) -> tuple[list[Plot], list[str]]:
     """Every plot that goes to a file too, and notes on those that could not be drawn."""
     measures = measures_of(table)
     plots: list[Plot] = []
+    flat = []
     for measure in measures:
+        shares = importance(table, measure)
         for axis in table.axes:
-            if table.frame[axis.name].nunique() > 1:
+            if shares.get(axis.name, 0.0) >= _SMALLEST_SHARE:
                 plots.append(axis_plot(table, axis, measure, len(plots) + 1))
+            elif table.frame[axis.name].nunique() > 1:
+                flat.append(f"{measure} along {axis.name}")
     fronts, notes = pareto_plots(table)
-    sensitivities = sensitivity_plot(table, [*measures])
+    if flat:
+        notes.append(f"Not drawn, because the axis alone changes nothing: {'; '.join(flat)}.")
+    sensitivities = sensitivity_plot(table, measures)
     return [*plots, *fronts, *([sensitivities] if sensitivities else [])], notes

@@ -64,7 +64,8 @@ def _local(choice: ClusterChoice) -> LocalCluster:
         threads_per_worker=1 if choice.processes else choice.workers,
         processes=choice.processes,
         memory_limit=0,  # simulators are processes of their own
-        dashboard_address=None,
+        dashboard_address="127.0.0.1:0",
+        worker_dashboard_address="127.0.0.1:0",
         silence_logs=logging.CRITICAL,
     )
 
@@ -109,7 +110,7 @@ def _slurm(choice: ClusterChoice) -> Iterator[Any]:
         raise ExploreError(f"--slurm needs dask-jobqueue: {remedy}") from None
     jobs = profile.pop("jobs")
     try:
-        cluster = SLURMCluster(**profile, scheduler_options={"dashboard_address": None})
+        cluster = SLURMCluster(**profile, scheduler_options={"dashboard_address": ":0"})
     except (TypeError, ValueError) as error:
         raise ExploreError(f"{choice.slurm}: {error}") from None
     with cluster:
