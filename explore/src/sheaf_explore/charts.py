@@ -19,6 +19,7 @@ _SCALE_DOWN = {"bits": (8 * 1024, "KiB"), "bytes": (1024, "KiB")}
 # Colours that people with colour-blindness tell apart (Okabe and Ito 2008).
 _COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
 _SMALLEST_SHARE = 0.001  # of variance, below which an axis is not drawn
+_WIDE = 20  # ratio from which a cost is drawn on a logarithmic scale
 _SHORT = alt.Axis(format="~s")
 
 _PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes")
@@ -166,7 +167,8 @@ def pareto_plot(table: Table, cost: str, against: str, number: int) -> Plot:
         axis=_SHORT,
     )
     y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_SHORT)
-    colour = alt.Color("scene:N", scale=alt.Scale(range=_COLOURS))
+    legend = alt.Legend() if data["scene"].nunique() > 1 else None
+    colour = alt.Color("scene:N", scale=alt.Scale(range=_COLOURS), legend=legend)
     tooltip = ["point:N", "place:N", "scene:N", "x:Q", "y:Q"]
     base = alt.Chart(data).encode(x=x, y=y, color=colour, tooltip=tooltip)
     front = base.transform_filter("datum.front")

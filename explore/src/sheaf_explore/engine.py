@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import cloudpickle
-from distributed import as_completed, Client
+from distributed import as_completed, CancelledError, Client
 from distributed.scheduler import KilledWorker
 
 from sheaf_explore import task
@@ -22,6 +22,7 @@ from sheaf_explore.store import Store
 from sheaf_explore.task import Job, Outcome
 
 _RETRIED = ("signal", "cancelled")
+_MOST_ATTEMPTS = 1000  # that a point is given while workers come and go
 _WINDOW_A_THREAD = 8
 _SMALLEST_WINDOW = 64
 
@@ -88,6 +89,7 @@ class Engine:
         self._retries = retries
         self._watcher = watcher
         self._attempts: dict[str, int] = {}
+        self._lost: dict[str, int] = {}  # attempts whose worker was lost, by no fault of the point
         self._jobs: dict[str, Job] = {}  # by key of the future
         self._tally = Tally()
         self._run = _remote_task()
@@ -137,7 +139,12 @@ class Engine:
         outcome = self._outcome(future, job)
         future.release()  # or Dask would compute it anew when its worker dies
         attempt = self._attempts[job.id]
-        retry = outcome.kind in _RETRIED and attempt <= self._retries
+        if outcome.kind == "lost":
+            self._lost[job.id] = self._lost.get(job.id, 0) + 1
+        own_fault = attempt - self._lost.get(job.id, 0)
+        retry = (outcome.kind in _RETRIED and own_fault <= self._retries) or (
+            outcome.kind == "lost" and attempt < _MOST_ATTEMPTS
+        )
         self._store.record(job, outcome, final=not retry)
         if outcome.fresh:
             self._tally.seconds.append(outcome.seconds)
@@ -153,11 +160,17 @@ class Engine:
 
     def _outcome(self, future: Any, job: Job) -> Outcome:
         if future.status == "finished":
-            return Outcome(**future.result())
-        if future.status in ("cancelled", "lost"):
-            raise ExploreError(
-                "the cluster was lost; finished points are safe, run again to resume", Exit.CLUSTER
-            )
+            with contextlib.suppress(CancelledError):
+                return Outcome(**future.result())
+        if future.status != "error":
+            # The answer went down with its worker, or everything with the scheduler. The result of
+            # the point may be safe all the same; the next attempt will see.
+            if self._client.status != "running":
+                raise ExploreError(
+                    "the cluster was lost; finished points are safe, run again to resume",
+                    Exit.CLUSTER,
+                )
+            return Outcome(job.id, "lost", "its worker was lost")
         error = future.exception()
         if isinstance(error, KilledWorker):
             return Outcome(job.id, "signal", "every worker that ran it was killed; out of memory?")
