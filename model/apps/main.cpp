@@ -28,6 +28,8 @@ struct Commands {
   sheaf::ReplayOptions replay;
   std::string info_scene;
   bool schema = false;
+  bool resolve = false;
+  sheaf::RunOptions resolved;
 };
 
 template <typename Options>
@@ -76,6 +78,8 @@ void declare(CLI::App& app, Commands& commands) {
       ->check(CLI::IsMember({"rays", "memory"}));
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
+  run->add_option("--parent", commands.run.parent,
+                  "End with the process of this number, which must have started this one");
   run->footer(kFooter);
 
   declare_replay(app, commands.replay);
@@ -84,8 +88,21 @@ void declare(CLI::App& app, Commands& commands) {
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
 
   CLI::App* config = app.add_subcommand("config", "Print every parameter with default and meaning");
-  config->add_flag("--schema", commands.schema, "Print a JSON schema instead");
+  CLI::Option* schema =
+      config->add_flag("--schema", commands.schema, "Print a JSON schema instead");
+  CLI::Option* resolve =
+      config->add_flag("--resolve", commands.resolve,
+                       "Print the configuration that --config and --set make instead");
+  resolve->excludes(schema);
+  declare_machine(*config, commands.resolved);
+  for (const char* setting : {"--config", "--set"}) config->get_option(setting)->needs(resolve);
   app.add_subcommand("counters", "Print every counter with unit and meaning");
+}
+
+std::string config_output(const Commands& commands) {
+  if (commands.schema) return sheaf::config_schema();
+  if (commands.resolve) return sheaf::resolved_config(commands.resolved);
+  return sheaf::describe_parameters();
 }
 
 int dispatch(const CLI::App& app, const Commands& commands) {
@@ -93,9 +110,7 @@ int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("config")) {
-    const std::string text =
-        commands.schema ? sheaf::config_schema() : sheaf::describe_parameters();
-    std::fputs(text.c_str(), stdout);
+    std::fputs(config_output(commands).c_str(), stdout);
   } else {
     std::fputs(sheaf::print_counters(sheaf::counter_groups()).c_str(), stdout);
   }

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <tuple>
 
 #include "apps/frame_run.h"
 #include "apps/recording.h"
+#include "apps/parent_death.h"
 #include "base/errors.h"
 #include "config/read_config.h"
 #include "scene/load_gltf.h"
@@ -25,6 +27,7 @@ std::filesystem::path output_folder(const RunOptions& options) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
+  if (options.parent) end_with_parent(*options.parent);
   const Config config = resolve_config(options.config, options.settings);
   // Refused before the scene is loaded.
   static_cast<void>(HeuristicChoice::parse(config.ray_cache.heuristic));
@@ -38,6 +41,12 @@ int run_command(const RunOptions& options) {
     };
   }
   return run_frame(job, folder);
+}
+
+std::string resolved_config(const RunOptions& options) {
+  const Config config = resolve_config(options.config, options.settings);
+  std::ignore = HeuristicChoice::parse(config.ray_cache.heuristic);
+  return config_toml(config, Comments::kMeanings);
 }
 
 int info_command(const std::filesystem::path& scene) {
