@@ -8,9 +8,10 @@
 #include <tuple>
 
 #include "apps/frame_run.h"
-#include "apps/recording.h"
 #include "apps/parent_death.h"
+#include "apps/recording.h"
 #include "base/errors.h"
+#include "config/config_text.h"
 #include "config/read_config.h"
 #include "scene/load_gltf.h"
 #include "scene/scene_info.h"

@@ -147,8 +147,8 @@ void TraversalUnit::issue(int number, Cycles now) {
   const auto outcome = fetcher_.fetch(number, 1, DataKind::kNode, line, now);
   if (outcome.complete) {
     context.phase = Phase::kStepIssued;
-    const TraceStep& step = context.log[context.position];
-    occupy(number, step_slots(scene_.scheme, step, slots_per_step_), cache_.hit_latency(), 0, now);
+    const std::uint32_t slots = step_slots(scene_.scheme, *context.step, slots_per_step_);
+    occupy(number, slots, cache_.hit_latency(), 0, now);
   } else {
     park(number, now + times_.line);
     occupy_missed(0, now);
@@ -164,7 +164,8 @@ TraversalUnit::QuickStep TraversalUnit::step_if_hit(int number) {
     return {};
   }
   context.step = next;
-  return {true, slots_per_step_ * spec_.initiation_interval, cache_.hit_latency() + spec_.latency};
+  const std::uint32_t slots = step_slots(scene_.scheme, *next, slots_per_step_);
+  return {true, slots * spec_.initiation_interval, cache_.hit_latency() + spec_.latency};
 }
 
 void TraversalUnit::send_job(int number, Cycles now) {
