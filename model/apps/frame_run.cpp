@@ -90,6 +90,12 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
 
 }  // namespace
 
+std::optional<std::filesystem::path> tree_folder(const std::string& option) {
+  if (option.empty()) return TreeCache::default_folder();
+  if (option == "none") return {};
+  return option;
+}
+
 void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
@@ -110,7 +116,9 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   const double load_seconds = load_watch.seconds();
   const BuildPlan plan = plan_machine(config, loaded.scene.needs);
   const Stopwatch build_watch;
-  const PreparedScene scene(std::move(loaded.scene), config);
+  std::optional<TreeCache> trees;
+  if (job.trees) trees.emplace(*job.trees);
+  const PreparedScene scene(std::move(loaded.scene), config, trees ? &*trees : nullptr);
   const double build_seconds = build_watch.seconds();
 
   Frame frame(config);

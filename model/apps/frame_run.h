@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "config/config.h"
@@ -15,6 +16,9 @@
 #include "system/run_hooks.h"
 
 namespace sheaf {
+
+/// The folder that --cache names: TreeCache::default_folder() if empty, none if "none".
+[[nodiscard]] std::optional<std::filesystem::path> tree_folder(const std::string& option);
 
 /// SIGINT and SIGTERM ask the run to end with what it has; a second one ends the process.
 void catch_interrupts();
@@ -39,6 +43,7 @@ struct FrameJob {
   bool quiet = false;      ///< no summary on standard output
   /// Called once the scene is loaded; may be null.
   std::function<std::unique_ptr<FrameGuest>(const PreparedScene&, Frame&)> guest;
+  std::optional<std::filesystem::path> trees = {};  ///< folder of the TreeCache; none: no cache
 };
 
 /// Loads the scene, builds, simulates and writes the result folder. Returns an exit code; throws

@@ -43,11 +43,21 @@ void declare_machine(CLI::App& command, Options& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+template <typename Options>
+void declare_cache(CLI::App& command, Options& options) {
+  command
+      .add_option("--cache", options.cache,
+                  "Folder in which kd-trees are kept from run to run, or none (default sheaf in "
+                  "$XDG_CACHE_HOME or ~/.cache; at most 1 GiB)")
+      ->type_name("DIR");
+}
+
 void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
   CLI::App* replay =
       app.add_subcommand("replay", "Run a recorded trace on another machine, without shading");
   replay->add_option("TRACE", options.trace, "Trace that 'sheaf run --record' wrote")->required();
   declare_machine(*replay, options);
+  declare_cache(*replay, options);
   replay->add_option("--scene", options.scene,
                      "Rays: the scene it was recorded from, if it is no longer where it was");
   replay->add_option("--out", options.out, "Folder for the results (default result/replay)");
@@ -70,6 +80,7 @@ void declare(CLI::App& app, Commands& commands) {
   CLI::App* run = app.add_subcommand("run", "Simulate one frame of a scene on one machine");
   run->add_option("SCENE", commands.run.scene, "glTF 2.0 file (.gltf or .glb)")->required();
   declare_machine(*run, commands.run);
+  declare_cache(*run, commands.run);
   run->add_option("--record", commands.run.record,
                   "Also write a trace into the folder: rays (rays.trace) or memory (memory.trace)")
       ->type_name("KIND")

@@ -78,6 +78,7 @@ int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMe
   const std::filesystem::path scene = scene_file(options, metadata);
   ResultFolder folder(options.out.empty() ? "result/replay" : options.out);
   FrameJob job{config, scene, metadata.scene_name, false, options.quiet, {}};
+  job.trees = tree_folder(options.cache);
   job.guest = [&](const PreparedScene& prepared, Frame& /*frame*/) {
     return std::make_unique<RayReplay>(reader, config, prepared, scene);
   };

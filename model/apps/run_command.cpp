@@ -36,6 +36,7 @@ int run_command(const RunOptions& options) {
   catch_interrupts();
   ResultFolder folder(output_folder(options));
   FrameJob job{config, options.scene, options.scene.filename().string(), true, options.quiet, {}};
+  job.trees = tree_folder(options.cache);
   if (!options.record.empty()) {
     job.guest = [&](const PreparedScene& scene, Frame& frame) {
       return std::make_unique<Recording>(options, config, scene, frame, folder);

@@ -14,6 +14,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> config;
   std::vector<std::string> settings;  ///< key=value, in order
   std::filesystem::path out;          ///< empty: result/<name of the scene>
+  std::string cache;                  ///< see tree_folder()
   std::vector<std::string> record;    ///< kinds of trace to be written: rays, memory
   bool quiet = false;                 ///< no summary on standard output
   std::optional<int> parent;          ///< process with which the run is to end
