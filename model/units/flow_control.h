@@ -50,12 +50,15 @@ class FlowControl {
   void bind_shader(const Inbox& inbox) { shaders_.push_back(inbox.agent()); }
   /// Tells the clock domain who is woken by whose changes, once all have been bound.
   void declare_links() const {
-    for (const Inbox* woken : {source_, regrouper_, film_}) {
+    for (const Inbox* woken : {source_, regrouper_, shader_cache_, film_}) {
       if (woken == nullptr) continue;
       for (const std::size_t shader : shaders_) {
         woken->domain().declare_link(shader, woken->agent(), kNotice);
       }
       woken->domain().declare_link(source_->agent(), woken->agent(), kNotice);
+    }
+    if (shader_cache_ != nullptr && regrouper_ != nullptr) {
+      shader_cache_->domain().declare_link(regrouper_->agent(), shader_cache_->agent(), kNotice);
     }
   }
 
