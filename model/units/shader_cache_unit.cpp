@@ -25,7 +25,7 @@ ShaderCacheUnit::ShaderCacheUnit(const sc_core::sc_module_name& name, const Shad
 
 void ShaderCacheUnit::end_of_elaboration() {
   inputs_.bind(in_packets, inbox_);
-  outputs_.bind(out_packets);
+  outputs_.bind(out_packets, inbox_);
 }
 
 Cycles ShaderCacheUnit::wake(Cycles now) {

@@ -19,17 +19,11 @@ class EmbreeOracle {
     float t = 0.0F;
   };
 
-<<<<<<< HEAD
   /// Robust: watertight and conservative, as an oracle must be. Fast: Embree as it comes, for
   /// benchmarks.
   enum class Mode : std::uint8_t { kRobust, kFast };
 
   /// Throws std::runtime_error on failure.
-=======
-  /// kRobust is watertight and conservative, kFast Embree's default. Throws std::runtime_error on
-  /// failure.
-  enum class Mode : std::uint8_t { kRobust, kFast };
->>>>>>> 69a3885 (Measure the kernels beside Embree)
   EmbreeOracle(std::span<const Vec3> positions,
                std::span<const std::array<std::uint32_t, 3>> triangles, Mode mode = Mode::kRobust);
   ~EmbreeOracle();
