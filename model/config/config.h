@@ -18,6 +18,7 @@ enum class Scheme : std::uint8_t { kSingle, kMasked, kInterval, kIntervalEntry, 
 enum class FlowPolicy : std::uint8_t { kTile, kCredits };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
 enum class RayOrder : std::uint8_t { kArrival, kBreadthFirst };
+enum class ShaderCacheKey : std::uint8_t { kMaterial, kTexture };
 enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };
 enum class FilmFormat : std::uint8_t { kUnorm8, kHalf, kFloat, kExact };
 enum class CacheMode : std::uint8_t { kNormal, kPerfect, kAbsent };
@@ -96,6 +97,12 @@ struct RayCacheSpec {
   Cycles latency{};
 };
 
+struct ShaderCacheSpec {
+  std::uint32_t cells{};
+  ShaderCacheKey key{};
+  std::uint32_t rays_per_cycle{};
+};
+
 struct PacketFifoSpec {
   std::uint32_t depth{};
   Cycles latency{};
@@ -166,6 +173,7 @@ struct Config {
   ArbiterSpec packet_arbiter;
   RayCacheSpec ray_cache;
   PacketFifoSpec packet_fifo;
+  ShaderCacheSpec shader_cache;
   UnitSpec traversal_unit, intersection_unit, shader_unit;
   LinkSpec link;
   CacheSpec node_cache, triangle_cache, attribute_cache, texture_cache, film_cache;

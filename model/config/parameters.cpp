@@ -99,6 +99,16 @@ void declare_pipeline(ParameterTable& t, Config& c) {
           "From a packet's entry into the FIFO to its exit at the earliest");
 }
 
+void declare_shader_cache(ParameterTable& t, Config& c) {
+  t.count("shader_cache.cells", c.shader_cache.cells, 0, 0, 1024, "cells",
+          "Cells of the shader cache, which sorts traced rays before they are shaded; 0 = none");
+  t.choice("shader_cache.key", c.shader_cache.key, ShaderCacheKey::kMaterial,
+           {{"material", ShaderCacheKey::kMaterial}, {"texture", ShaderCacheKey::kTexture}},
+           "Rays of a cell met the same material, or materials of the same textures");
+  t.count("shader_cache.rays_per_cycle", c.shader_cache.rays_per_cycle, 4, 1, 64, "rays",
+          "Rays that the shader cache takes in a cycle");
+}
+
 void declare_unit(ParameterTable& t, const std::string& name, UnitSpec& spec,
                   const UnitSpec& defaults, const std::string& step) {
   t.count(name + ".count", spec.count, defaults.count, 1, 64, "units", "Number of these units");
@@ -214,6 +224,7 @@ ParameterTable declare_parameters(Config& config) {
   ParameterTable table;
   declare_run(table, config);
   declare_pipeline(table, config);
+  declare_shader_cache(table, config);
   declare_units(table, config);
   declare_memory(table, config);
   declare_tree_and_measures(table, config);

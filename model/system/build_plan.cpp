@@ -30,6 +30,8 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
   }
   plan.texture_cache =
       want(needs.textures, "texture cache and UVs", "no material in use has a texture");
+  plan.shader_cache = config.shader_cache.cells != 0;
+  if (!plan.shader_cache) plan.left_out.push_back({"shader cache", "shader_cache.cells is 0"});
   if (!config.measure.coherence) {
     plan.left_out.push_back({"coherence pass", "measure.coherence is false"});
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/tile_order.h"
+#include "sorting/shading_sorter.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
 #include "system/prepared_scene.h"
@@ -37,9 +38,11 @@ class FunctionalPipeline {
  private:
   bool next_primary(RayPacket*& packet);
   void process(RayPacket* packet, TraceCounts& counts);
+  void shade(RayPacket* packet);
   void retire(const RayPacket& packet);
   void spawn();
   bool sweep();
+  bool sweep_shader_cache();
 
   const Config config_;
   const BuildPlan plan_;
@@ -51,6 +54,8 @@ class FunctionalPipeline {
   FlowControl flow_;
   TileOrder order_;
   std::unique_ptr<RaySorter> sorter_;
+  std::unique_ptr<ShadingSorter> shading_sorter_;
+  std::vector<RayPacket*> to_shade_;
   std::deque<RayPacket*> fifo_;
   std::vector<RayPacket*> departures_;
   RayPacket* held_primary_ = nullptr;  ///< made, but not admitted yet

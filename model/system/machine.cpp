@@ -125,6 +125,10 @@ void Machine::build_units() {
       shader_units_.back()->in_texture_lines(*links_->l2_to_caches.back());
     }
   }
+  if (plan_.shader_cache) {
+    shader_cache_ = std::make_unique<ShaderCacheUnit>("shader_cache", config_.shader_cache,
+                                                      scene_.scene, packets_, flow_, domain_);
+  }
   film_ =
       std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
                                  flow_, domain_, memory, add_requester(config_.film_cache));
@@ -199,15 +203,41 @@ void Machine::connect() {
   film_->in_batches(*links.shader_to_film);
   for (auto& shader : shader_units_) {
     ShaderUnit& unit = *shader;
-    for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-      links.traversal_to_shader.push_back(std::make_unique<PacketChannel>(
-          fmt::format("traversal{}_to_{}", i, unit.name()).c_str(),
-          PacketChannel::Spec{.capacity = depth, .latency = latency}));
-      unit.in_packets(*links.traversal_to_shader.back());
-      traversal_units_[i]->out_packets(*links.traversal_to_shader.back());
-    }
     unit.out_film(*links.shader_to_film);
     if (plan_.secondary_rays) unit.out_bundles(*links.spawned_rays);
+  }
+  if (shader_cache_) {
+    connect_shader_cache();
+  } else {
+    connect_shaders();
+  }
+}
+
+void Machine::connect_shaders() {
+  for (auto& shader : shader_units_) {
+    for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+      links_->traversal_to_shader.push_back(std::make_unique<PacketChannel>(
+          fmt::format("traversal{}_to_{}", i, shader->name()).c_str(),
+          PacketChannel::Spec{.capacity = config_.link.depth, .latency = config_.link.latency}));
+      shader->in_packets(*links_->traversal_to_shader.back());
+      traversal_units_[i]->out_packets(*links_->traversal_to_shader.back());
+    }
+  }
+}
+
+void Machine::connect_shader_cache() {
+  const PacketChannel::Spec spec{.capacity = config_.link.depth, .latency = config_.link.latency};
+  for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+    links_->traversal_to_shader_cache.push_back(std::make_unique<PacketChannel>(
+        fmt::format("traversal{}_to_shader_cache", i).c_str(), spec));
+    traversal_units_[i]->out_packets(*links_->traversal_to_shader_cache.back());
+    shader_cache_->in_packets(*links_->traversal_to_shader_cache.back());
+  }
+  for (auto& shader : shader_units_) {
+    links_->shader_cache_to_shader.push_back(std::make_unique<PacketChannel>(
+        fmt::format("shader_cache_to_{}", shader->name()).c_str(), spec));
+    shader_cache_->out_packets(*links_->shader_cache_to_shader.back());
+    shader->in_packets(*links_->shader_cache_to_shader.back());
   }
 }
 
@@ -234,6 +264,7 @@ void Machine::finish_accounts(Cycles end) {
   primary_source_->finish(end);
   packet_arbiter_->finish(end);
   film_->finish(end);
+  if (shader_cache_) shader_cache_->finish(end);
   if (ray_cache_) ray_cache_->finish(end);
   if (spawn_router_) spawn_router_->finish(end);
 }
@@ -250,6 +281,7 @@ std::string Machine::describe_stuck() const {
   for (const auto& unit : traversal_units_) add(unit.get());
   for (const auto& unit : intersection_units_) add(unit.get());
   for (const auto& unit : shader_units_) add(unit.get());
+  add(shader_cache_.get());
   add(primary_source_.get());
   add(packet_arbiter_.get());
   add(ray_cache_.get());

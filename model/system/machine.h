@@ -22,6 +22,7 @@
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
 #include "units/ray_cache_unit.h"
+#include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
 #include "units/traversal_unit.h"
@@ -56,6 +57,8 @@ class Machine {
   void build_units();
   void build_regrouper();
   void connect();
+  void connect_shaders();
+  void connect_shader_cache();
   void check_conservation() const;
   [[nodiscard]] std::string describe_stuck() const;
   void finish_accounts(Cycles end);
@@ -83,6 +86,7 @@ class Machine {
   std::unique_ptr<PacketArbiter> packet_arbiter_;
   std::unique_ptr<RayCacheUnit> ray_cache_;
   std::unique_ptr<SpawnRouter> spawn_router_;
+  std::unique_ptr<ShaderCacheUnit> shader_cache_;
   std::unique_ptr<FilmUnit> film_;
   std::unique_ptr<L2Cache> l2_;
   std::unique_ptr<FixedDram> dram_;

@@ -43,7 +43,7 @@ Cycles RayCacheUnit::act(Cycles now) {
     return kNever;  // woken when the FIFO has room
   }
   const bool worked = time_out(now) || insert_rays(now) || sweep(now);
-  flow_.set_waiting(sorter_->num_waiting());
+  flow_.set_waiting(sorter_->num_waiting(), now);
   if (worked) {
     stalls_.switch_to(StallCause::kBusy, now);
     return now + 1;
@@ -100,8 +100,8 @@ Cycles RayCacheUnit::next_time_out() const {
 }
 
 bool RayCacheUnit::sweep(Cycles now) {
-  flow_.set_waiting(sorter_->num_waiting());
-  if (sorter_->num_waiting() == 0 || !flow_.is_quiet()) return false;
+  flow_.set_waiting(sorter_->num_waiting(), now);
+  if (sorter_->num_waiting() == 0 || !flow_.is_quiet() || flow_.waits_for_shader()) return false;
   if (flow_.source() == FlowControl::Source::kIssuing) return false;
   sorter_->sweep(sweep_reason(), now, departures_);
   return true;

@@ -39,6 +39,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"shader_unit.initiation_interval=100", "link.depth=1"},
                     Settings{"link.memory_latency=1"}, Settings{"link.latency=1"},
                     Settings{"node_cache.mshrs=1", "triangle_cache.mshrs=1", "l2.mshrs=1"},
+                    Settings{"shader_cache.cells=4", "shader_unit.count=2"},
+                    Settings{"shader_cache.cells=2", "ray_cache.heuristic=none", "link.depth=1",
+                             "link.latency=1", "flow.control=credits"},
+                    Settings{"ray_cache.heuristic=grid(4)", "ray_cache.order=breadth_first",
+                             "traversal.scheme=omni"},
                     Settings{"l2.mode=absent", "dram.latency=1000", "flow.control=credits"}));
 
 }  // namespace

@@ -46,6 +46,8 @@ std::vector<Choices> choices() {
           each("ray_cache.order", {"arrival", "breadth_first"}),
           each("ray_cache.group_by_kind", {"false", "true"}),
           each("ray_cache.resident_voxels", {"0", "4"}),
+          each("shader_cache.cells", {"0", "1", "8"}),
+          each("shader_cache.key", {"material", "texture"}),
           each("packet.size", {"1", "3", "4", "16", "17", "64"}),
           each("ray_cache.cells", {"1", "2", "8", "96"}),
           each("ray_cache.victim", {"fullest", "oldest", "lru"}),
