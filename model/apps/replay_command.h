@@ -16,6 +16,7 @@ struct ReplayOptions {
   std::vector<std::string> settings;            ///< key=value, in order, over both
   std::filesystem::path out;                    ///< empty: result/replay
   bool quiet = false;                           ///< no summary on standard output
+  std::optional<int> parent;                    ///< process with which the replay is to end
 };
 
 /// `sheaf replay`: runs a trace on another machine. Returns an exit code; throws Error for what the
