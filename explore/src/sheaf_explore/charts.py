@@ -16,12 +16,15 @@ from sheaf_explore.analysis import binned, pareto_front, sensitivity
 from sheaf_explore.collect import Axis, Table
 
 WIDTH, HEIGHT = 460, 300
+_LABELS = 160  # of the width, for the names of measures
 _SCALE_DOWN = {"bits": (8 * 1024, "KiB"), "bytes": (1024, "KiB")}
 # Colours that people with colour-blindness tell apart (Okabe and Ito 2008).
 _COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
 _SMALLEST_SHARE = 0.001  # of variance, below which an axis is not drawn
 _WIDE = 20  # ratio from which a cost is drawn on a logarithmic scale
-_SHORT = alt.Axis(format="~s")
+_SHORT = alt.Axis(  # 2.5M and 0.95, where one format would give 2500000 or 950m
+    labelExpr="format(datum.value, abs(datum.value) >= 1000 ? '~s' : '.4~g')"
+)
 
 _PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes")
 _ENERGY_COLUMNS = ("energy.total", "system.energy.total", "system.energy", "derived.energy")
@@ -106,6 +109,11 @@ def _hues(axis: Axis) -> list[str]:
     return []
 
 
+def _below() -> alt.Legend:
+    """A legend that leaves the plot its width."""
+    return alt.Legend(orient="bottom", columns=4, labelLimit=120)
+
+
 def _colour(axis: Axis | None, present: set[str]) -> Any:
     if axis is None:
         return alt.value(_COLOURS[0])
@@ -116,7 +124,7 @@ def _colour(axis: Axis | None, present: set[str]) -> Any:
         if hues
         else alt.Scale(domain=domain, scheme="viridis")
     )
-    return alt.Color("colour:N", title=axis.name, scale=scale, sort=domain)
+    return alt.Color("colour:N", title=axis.name, scale=scale, sort=domain, legend=_below())
 
 
 def axis_plot(table: Table, axis: Axis, measure: str) -> Plot:
@@ -186,7 +194,7 @@ def pareto_plot(table: Table, cost: str, against: str) -> Plot:
         axis=_SHORT,
     )
     y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_SHORT)
-    legend = alt.Legend() if data["scene"].nunique() > 1 else None
+    legend = _below() if data["scene"].nunique() > 1 else None
     colour = alt.Color("scene:N", scale=alt.Scale(range=_COLOURS), legend=legend)
     tooltip = ["point:N", "place:N", "scene:N", "x:Q", "y:Q"]
     base = alt.Chart(data).encode(x=x, y=y, color=colour, tooltip=tooltip)
@@ -237,15 +245,19 @@ def sensitivity_plot(table: Table, measures: list[str]) -> Plot | None:
         .mark_bar()
         .encode(
             x=alt.X("sum(share):Q", title="share of variance", axis=alt.Axis(format="%")),
-            y=alt.Y("measure:N", sort=measures, title=None, axis=alt.Axis(labelLimit=260)),
+            y=alt.Y("measure:N", sort=measures, title=None, axis=alt.Axis(labelLimit=_LABELS + 40)),
             color=alt.Color(
-                "axis:N", sort=names, scale=alt.Scale(domain=names, range=colours), title="axis"
+                "axis:N",
+                sort=names,
+                scale=alt.Scale(domain=names, range=colours),
+                title="axis",
+                legend=_below(),
             ),
             order=alt.Order("rank:Q"),
             tooltip=["measure:N", "axis:N", alt.Tooltip("share:Q", format=".1%")],
         )
         .transform_calculate(rank=f"indexof({json.dumps(names)}, datum.axis)")
-        .properties(width=WIDTH, height=34 * len({row["measure"] for row in rows}))
+        .properties(width=WIDTH - _LABELS, height=34 * len({row["measure"] for row in rows}))
     )
     text = (
         "The share of a measure's variance that each axis explains alone (first-order Sobol index);"
