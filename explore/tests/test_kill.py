@@ -150,7 +150,7 @@ def test_kills_at_random_lose_nothing_and_repeat_nothing(
     explore: Explore, spec: Path, sheaf: Path, tmp_path: Path, seed: int
 ) -> None:
     generator = random.Random(seed)
-    program = wrapper(tmp_path, sheaf, pause=0.1)
+    program = wrapper(tmp_path, sheaf, pause=0.05)
     out = tmp_path / "killed"
     kills = [*["simulator"] * 4, *["worker"] * 2, *["sweep"] * 3]
     generator.shuffle(kills)

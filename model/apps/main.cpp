@@ -52,6 +52,12 @@ void declare_cache(CLI::App& command, Options& options) {
       ->type_name("DIR");
 }
 
+template <typename Options>
+void declare_parent(CLI::App& command, Options& options) {
+  command.add_option("--parent", options.parent,
+                     "End with the process of this number, which must have started this one");
+}
+
 void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
   CLI::App* replay =
       app.add_subcommand("replay", "Run a recorded trace on another machine, without shading");
@@ -62,6 +68,7 @@ void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
                      "Rays: the scene it was recorded from, if it is no longer where it was");
   replay->add_option("--out", options.out, "Folder for the results (default result/replay)");
   replay->add_flag("--quiet", options.quiet, "Print no summary");
+  declare_parent(*replay, options);
   replay->footer(
       std::string(
           "What is not set is as it was recorded. Ray traces replay on any ray cache, heuristic, "
@@ -89,8 +96,7 @@ void declare(CLI::App& app, Commands& commands) {
       ->check(CLI::IsMember({"rays", "memory"}));
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
-  run->add_option("--parent", commands.run.parent,
-                  "End with the process of this number, which must have started this one");
+  declare_parent(*run, commands.run);
   run->footer(kFooter);
 
   declare_replay(app, commands.replay);

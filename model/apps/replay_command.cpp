@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "apps/frame_run.h"
+#include "apps/parent_death.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
@@ -88,6 +89,7 @@ int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMe
 }  // namespace
 
 int replay_command(const ReplayOptions& options) {
+  if (options.parent) end_with_parent(*options.parent);
   catch_interrupts();
   TraceReader reader(options.trace);
   reader.verify();

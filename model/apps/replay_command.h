@@ -17,6 +17,7 @@ struct ReplayOptions {
   std::filesystem::path out;                    ///< empty: result/replay
   std::string cache;                            ///< see tree_folder()
   bool quiet = false;                           ///< no summary on standard output
+  std::optional<int> parent;                    ///< process with which the replay is to end
 };
 
 /// `sheaf replay`: runs a trace on another machine. Returns an exit code; throws Error for what the

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from typing import Any
 
 import altair as alt
@@ -15,12 +16,15 @@ from sheaf_explore.analysis import binned, pareto_front, sensitivity
 from sheaf_explore.collect import Axis, Table
 
 WIDTH, HEIGHT = 460, 300
+_LABELS = 160  # of the width, for the names of measures
 _SCALE_DOWN = {"bits": (8 * 1024, "KiB"), "bytes": (1024, "KiB")}
 # Colours that people with colour-blindness tell apart (Okabe and Ito 2008).
 _COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
 _SMALLEST_SHARE = 0.001  # of variance, below which an axis is not drawn
 _WIDE = 20  # ratio from which a cost is drawn on a logarithmic scale
-_SHORT = alt.Axis(format="~s")
+_SHORT = alt.Axis(  # 2.5M and 0.95, where one format would give 2500000 or 950m
+    labelExpr="format(datum.value, abs(datum.value) >= 1000 ? '~s' : '.4~g')"
+)
 
 _PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes")
 _ENERGY_COLUMNS = ("energy.total", "system.energy.total", "system.energy", "derived.energy")
@@ -40,6 +44,21 @@ class Plot:
     title: str
     text: str
     chart: Any
+
+
+def _file(name: str) -> str:
+    """A name that is a file's everywhere."""
+    return re.sub(r"[^A-Za-z0-9._-]", "_", name)
+
+
+def _with_names_of_their_own(plots: list[Plot]) -> list[Plot]:
+    """The plots, numbered where two would be the same file."""
+    seen: dict[str, int] = {}
+    named = []
+    for plot in plots:
+        count = seen[plot.name] = seen.get(plot.name, 0) + 1
+        named.append(plot if count == 1 else replace(plot, name=f"{plot.name}-{count}"))
+    return named
 
 
 def measures_of(table: Table) -> list[str]:
@@ -90,6 +109,11 @@ def _hues(axis: Axis) -> list[str]:
     return []
 
 
+def _below() -> alt.Legend:
+    """A legend that leaves the plot its width."""
+    return alt.Legend(orient="bottom", columns=4, labelLimit=120)
+
+
 def _colour(axis: Axis | None, present: set[str]) -> Any:
     if axis is None:
         return alt.value(_COLOURS[0])
@@ -100,10 +124,10 @@ def _colour(axis: Axis | None, present: set[str]) -> Any:
         if hues
         else alt.Scale(domain=domain, scheme="viridis")
     )
-    return alt.Color("colour:N", title=axis.name, scale=scale, sort=domain)
+    return alt.Color("colour:N", title=axis.name, scale=scale, sort=domain, legend=_below())
 
 
-def axis_plot(table: Table, axis: Axis, measure: str, number: int) -> Plot:
+def axis_plot(table: Table, axis: Axis, measure: str) -> Plot:
     """A measure along an axis: a dot a point, lines through means, by the next strongest axis."""
     shares = {name: s for name, s in importance(table, measure).items() if name != axis.name}
     strongest = max(shares, key=lambda name: shares[name], default=None)
@@ -123,7 +147,8 @@ def axis_plot(table: Table, axis: Axis, measure: str, number: int) -> Plot:
         data["x"] = table.frame[axis.name].astype(float)
         x = alt.X("x:Q", title=axis.name, scale=alt.Scale(zero=False), axis=_SHORT)
     else:
-        x = alt.X("x:N", sort=order, title=axis.name, axis=alt.Axis(labelAngle=0, labelLimit=90))
+        room = max(40, WIDTH // max(len(order), 1) - 6)
+        x = alt.X("x:N", sort=order, title=axis.name, axis=alt.Axis(labelAngle=0, labelLimit=room))
     y = alt.Y("y:Q", title=_axis_title(table, measure), scale=alt.Scale(zero=False), axis=_SHORT)
     base = alt.Chart(data).encode(x=x, color=colour)
     dots = base.mark_circle(size=28, opacity=0.45).encode(
@@ -136,10 +161,12 @@ def axis_plot(table: Table, axis: Axis, measure: str, number: int) -> Plot:
     if other:
         text += f"; coloured by {other.name}, the other axis that matters most to it"
     chart = alt.layer(*layers).properties(width=WIDTH, height=HEIGHT)
-    return Plot(f"axis-{number:02}", f"{measure} along {axis.name}", text + ".", chart)
+    return Plot(
+        _file(f"{measure}-by-{axis.name}"), f"{measure} along {axis.name}", text + ".", chart
+    )
 
 
-def pareto_plot(table: Table, cost: str, against: str, number: int) -> Plot:
+def pareto_plot(table: Table, cost: str, against: str) -> Plot:
     """One measure against a cost, smaller is better for both, a front for each scene."""
     unit = table.units.get(cost, "")
     scale, shown = _SCALE_DOWN.get(unit, (1, unit))
@@ -167,7 +194,7 @@ def pareto_plot(table: Table, cost: str, against: str, number: int) -> Plot:
         axis=_SHORT,
     )
     y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_SHORT)
-    legend = alt.Legend() if data["scene"].nunique() > 1 else None
+    legend = _below() if data["scene"].nunique() > 1 else None
     colour = alt.Color("scene:N", scale=alt.Scale(range=_COLOURS), legend=legend)
     tooltip = ["point:N", "place:N", "scene:N", "x:Q", "y:Q"]
     base = alt.Chart(data).encode(x=x, y=y, color=colour, tooltip=tooltip)
@@ -179,7 +206,7 @@ def pareto_plot(table: Table, cost: str, against: str, number: int) -> Plot:
     ).properties(width=WIDTH, height=HEIGHT)
     count = int(data["front"].sum())
     text = f"{count} of {len(data)} points are on the front: no other is better in both."
-    return Plot(f"pareto-{number:02}", f"{against} against {cost}", text, chart)
+    return Plot(_file(f"pareto-{cost}"), f"{against} against {cost}", text, chart)
 
 
 def pareto_plots(table: Table) -> tuple[list[Plot], list[str]]:
@@ -194,7 +221,7 @@ def pareto_plots(table: Table) -> tuple[list[Plot], list[str]]:
     plots: list[Plot] = []
     for cost in costs:
         if table.frame[cost].nunique() > 1:
-            plots.append(pareto_plot(table, cost, against, len(plots) + 1))
+            plots.append(pareto_plot(table, cost, against))
         else:
             notes.append(f"{cost} is the same at all points, so it has no front.")
     return plots, notes
@@ -218,15 +245,19 @@ def sensitivity_plot(table: Table, measures: list[str]) -> Plot | None:
         .mark_bar()
         .encode(
             x=alt.X("sum(share):Q", title="share of variance", axis=alt.Axis(format="%")),
-            y=alt.Y("measure:N", sort=measures, title=None, axis=alt.Axis(labelLimit=260)),
+            y=alt.Y("measure:N", sort=measures, title=None, axis=alt.Axis(labelLimit=_LABELS + 40)),
             color=alt.Color(
-                "axis:N", sort=names, scale=alt.Scale(domain=names, range=colours), title="axis"
+                "axis:N",
+                sort=names,
+                scale=alt.Scale(domain=names, range=colours),
+                title="axis",
+                legend=_below(),
             ),
             order=alt.Order("rank:Q"),
             tooltip=["measure:N", "axis:N", alt.Tooltip("share:Q", format=".1%")],
         )
         .transform_calculate(rank=f"indexof({json.dumps(names)}, datum.axis)")
-        .properties(width=WIDTH, height=34 * len({row["measure"] for row in rows}))
+        .properties(width=WIDTH - _LABELS, height=34 * len({row["measure"] for row in rows}))
     )
     text = (
         "The share of a measure's variance that each axis explains alone (first-order Sobol index);"
@@ -295,11 +326,12 @@ def all_plots(table: Table) -> tuple[list[Plot], list[str]]:
         shares = importance(table, measure)
         for axis in table.axes:
             if shares.get(axis.name, 0.0) >= _SMALLEST_SHARE:
-                plots.append(axis_plot(table, axis, measure, len(plots) + 1))
+                plots.append(axis_plot(table, axis, measure))
             elif table.frame[axis.name].nunique() > 1:
                 flat.append(f"{measure} along {axis.name}")
     fronts, notes = pareto_plots(table)
     if flat:
         notes.append(f"Not drawn, because the axis alone changes nothing: {'; '.join(flat)}.")
     sensitivities = sensitivity_plot(table, measures)
-    return [*plots, *fronts, *([sensitivities] if sensitivities else [])], notes
+    everything = [*plots, *fronts, *([sensitivities] if sensitivities else [])]
+    return _with_names_of_their_own(everything), notes

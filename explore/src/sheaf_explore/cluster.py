@@ -43,6 +43,8 @@ def open_cluster(choice: ClusterChoice) -> Iterator[Client]:
     settings = {
         "distributed.scheduler.allowed-failures": _ALLOWED_DEATHS,
         "distributed.worker.multiprocessing-method": "spawn",
+        "distributed.worker.profile.enabled": False,
+        "distributed.admin.tick.interval": "1s",
         "distributed.admin.tick.limit": "1h",
     }
     with dask.config.set(settings):

@@ -7,6 +7,8 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import signal
+import sys
+import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -25,6 +27,7 @@ _RETRIED = ("signal", "cancelled")
 _MOST_ATTEMPTS = 1000  # that a point is given while workers come and go
 _WINDOW_A_THREAD = 8
 _SMALLEST_WINDOW = 64
+_SECONDS_BETWEEN_COUNTS = 1.0
 
 
 class Watcher(Protocol):
@@ -47,23 +50,26 @@ class Tally:
     seconds: list[float] = field(default_factory=list)  # of each simulation that ran
 
 
-def _remote_task() -> Callable[[dict[str, Any]], dict[str, Any]]:
-    """run_on_worker with plain dictionaries, in a form that carries its module with it."""
-    cloudpickle.register_pickle_by_value(task)
-
-    def run(job: dict[str, Any]) -> dict[str, Any]:
-        return dataclasses.asdict(task.run_on_worker(task.Job(**job)))
-
-    return run
+def run_job(job: dict[str, Any]) -> dict[str, Any]:
+    """run_on_worker with plain dictionaries, which every worker can read."""
+    return dataclasses.asdict(task.run_on_worker(task.Job(**job)))
 
 
-def _remote_stop() -> Callable[..., None]:
-    cloudpickle.register_pickle_by_value(task)
+class _Carried:
+    """A function that carries this package's part of it along; pickled once, not once a task."""
 
-    def stop(folder: str, stop: bool, dask_worker: Any = None) -> None:
-        task.stop_on_worker(folder, stop, dask_worker)
+    def __init__(self, function: Callable[..., Any]) -> None:
+        for module in (task, sys.modules[__name__]):
+            cloudpickle.register_pickle_by_value(module)
+        self._bytes = cloudpickle.dumps(function)
+        for module in (task, sys.modules[__name__]):
+            cloudpickle.unregister_pickle_by_value(module)
 
-    return stop
+    def __reduce__(self) -> tuple[Callable[[bytes], Any], tuple[bytes]]:
+        return cloudpickle.loads, (self._bytes,)
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        raise TypeError("is only to be sent to workers")
 
 
 @contextlib.contextmanager
@@ -92,7 +98,9 @@ class Engine:
         self._lost: dict[str, int] = {}  # attempts whose worker was lost, by no fault of the point
         self._jobs: dict[str, Job] = {}  # by key of the future
         self._tally = Tally()
-        self._run = _remote_task()
+        self._run = _Carried(run_job)
+        self._threads = 0
+        self._threads_asked = -_SECONDS_BETWEEN_COUNTS
 
     def run(self, jobs: list[Job]) -> Tally:
         """Runs the jobs; on Ctrl-C it stops what runs and tells so in the tally."""
@@ -112,9 +120,7 @@ class Engine:
         completed = as_completed(with_results=False)
         running = 0
         while waiting or running:
-            threads = sum(self._client.nthreads().values())
-            self._watcher.workers(threads)
-            window = max(_SMALLEST_WINDOW, _WINDOW_A_THREAD * threads)
+            window = max(_SMALLEST_WINDOW, _WINDOW_A_THREAD * self._count_threads())
             while waiting and running < window:
                 completed.add(self._submit(waiting.popleft()))
                 running += 1
@@ -123,6 +129,13 @@ class Engine:
                 again = self._take(future)
                 if again is not None:
                     waiting.appendleft(again)
+
+    def _count_threads(self) -> int:
+        if time.monotonic() - self._threads_asked > _SECONDS_BETWEEN_COUNTS:
+            self._threads = sum(self._client.nthreads().values())
+            self._threads_asked = time.monotonic()
+            self._watcher.workers(self._threads)
+        return self._threads
 
     def _submit(self, job: Job) -> Any:
         attempt = self._attempts.get(job.id, 0) + 1
@@ -188,7 +201,7 @@ class Engine:
         return Future(key, self._client)
 
     def _tell_workers_to_stop(self, stop: bool) -> None:
-        self._client.run(_remote_stop(), str(self._store.folder), stop)
+        self._client.run(_Carried(task.stop_on_worker), str(self._store.folder), stop)
 
 
 def _next_batch(completed: Any) -> list[Any]:

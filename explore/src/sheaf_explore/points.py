@@ -26,6 +26,12 @@ class Point:
     source: Source
     labels: dict[str, Value]
     settings: dict[str, Value]
+    from_recording: bool = False  # replays rays that the sweep records of its scene
+
+    @property
+    def mode(self) -> str:
+        """Whether the rays are traced live or replayed."""
+        return "replayed" if self.from_recording or self.source.kind == "trace" else "live"
 
 
 def point_id(point: Point, parameters: Parameters, source_hash: str, binary_hash: str) -> str:
@@ -37,7 +43,7 @@ def point_id(point: Point, parameters: Parameters, source_hash: str, binary_hash
     identity = {
         "binary": binary_hash,
         "configuration": {key: resolved[key] for key in sorted(resolved)},
-        "mode": point.source.mode,
+        "mode": point.mode,
         "source": source_hash,
     }
     text = json.dumps(identity, sort_keys=True, separators=(",", ":"))

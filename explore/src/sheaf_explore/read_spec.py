@@ -30,7 +30,7 @@ from sheaf_explore.toml_lines import Path as Place
 MAX_SPEC_BYTES = 1 << 20
 MAX_SAMPLES = 1_000_000
 
-_TOP = {"name", "scenes", "traces", "set", "axis", "sample"} | {
+_TOP = {"name", "scenes", "traces", "set", "axis", "sample", "replay"} | {
     "drop",
     "limits",
     "measures",
@@ -67,7 +67,13 @@ class _Reader:
         if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
             if value is default:
                 return default
-            names = {str: "text", int: "a whole number", float: "a number", list: "a list"}
+            names = {
+                str: "text",
+                int: "a whole number",
+                float: "a number",
+                list: "a list",
+                bool: "true or false",
+            }
             self.fail((*place, key), f"{key} must be {names.get(kind, 'a table')}")
         return value
 
@@ -334,6 +340,7 @@ class _Reader:
             axes=axes,
             sample=sample,
             drop=self.conditions(),
+            replay=self.get((), self.document, "replay", bool, False),
             limits=self.limits(),
             measures=tuple(self.texts((), self.document, "measures")),
             optimize=self.optimize(axes),

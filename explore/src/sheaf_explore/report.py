@@ -94,6 +94,9 @@ def write_report(store: Store) -> Path:
         png = vl_convert.vegalite_to_png(chart, scale=_PNG_SCALE)
         write_whole(folder / f"{plot.name}.png", png)
         write_whole(folder / f"{plot.name}.svg", vl_convert.vegalite_to_svg(chart))
+    for old in [*folder.glob("*.png"), *folder.glob("*.svg")]:
+        if old.stem not in {plot.name for plot in plots}:
+            old.unlink()
     page = folder / "index.html"
     write_whole(page, _page(store, table, plots, notes))
     return page

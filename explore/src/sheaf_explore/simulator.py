@@ -10,7 +10,7 @@ import os
 import re
 import shutil
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -48,6 +48,9 @@ class Simulator:
     """A sheaf binary."""
 
     path: Path
+    _options: dict[str, frozenset[str]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     @cached_property
     def hash(self) -> str:
@@ -66,22 +69,43 @@ class Simulator:
         """Subcommands of this binary."""
         return frozenset(re.findall(r"^  (\w+)", self._ask("--help"), re.MULTILINE))
 
-    @cached_property
-    def run_options(self) -> frozenset[str]:
-        """Long options of `sheaf run`."""
-        return frozenset(re.findall(r"--[\w-]+", self._ask("run", "--help")))
+    def options(self, command: str) -> frozenset[str]:
+        """Long options of a subcommand."""
+        if command not in self._options:
+            text = self._ask(command, "--help")
+            self._options[command] = frozenset(re.findall(r"--[\w-]+", text))
+        return self._options[command]
 
-    def arguments(
-        self, source: Source, settings: dict[str, Value], cache: Path | None
-    ) -> list[str]:
+    def arguments(self, source: Source, settings: dict[str, Value], cache: Path) -> list[str]:
         """The command line that simulates one point, without its folder."""
         command = "run" if source.kind == "scene" else "replay"
-        words = [str(self.path), command, str(source.path)]
+        words = [str(self.path), command, str(source.path), *self._settings(settings)]
+        return words + self._cache(command, cache)
+
+    def recording(self, source: Source, settings: dict[str, Value], cache: Path) -> list[str]:
+        """The command line that records the rays of a scene."""
+        return [*self.arguments(source, settings, cache), "--record", "rays"]
+
+    def replaying(
+        self, trace: Path, source: Source, settings: dict[str, Value], cache: Path
+    ) -> list[str]:
+        """The command line that replays such a recording on another machine."""
+        words = [str(self.path), "replay", str(trace), "--scene", str(source.path)]
+        return words + self._settings(settings) + self._cache("replay", cache)
+
+    def _settings(self, settings: dict[str, Value]) -> list[str]:
+        words = []
         for key in sorted(settings):
             words += ["--set", f"{key}={self.parameters[key].text(settings[key])}"]
-        if cache is not None and "--cache" in self.run_options:
-            words += ["--cache", str(cache)]
         return words
+
+    def _cache(self, command: str, cache: Path) -> list[str]:
+        return ["--cache", str(cache)] if "--cache" in self.options(command) else []
+
+    @property
+    def records(self) -> bool:
+        """Whether this binary can record rays and replay them."""
+        return "replay" in self.commands and "--record" in self.options("run")
 
     def check_replay(self, sources: tuple[Source, ...]) -> None:
         """Raises ExploreError if there are traces and this binary cannot replay them."""
@@ -91,9 +115,7 @@ class Simulator:
 
     def refusal(self, settings: dict[str, Value]) -> str | None:
         """Why the simulator refuses these settings, or None if it takes them."""
-        words = [str(self.path), "config", "--resolve"]
-        for key in sorted(settings):
-            words += ["--set", f"{key}={self.parameters[key].text(settings[key])}"]
+        words = [str(self.path), "config", "--resolve", *self._settings(settings)]
         done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
         if done.returncode == 0:
             return None

@@ -23,10 +23,6 @@ class Source:
     path: Path  # as it can be opened
     name: str  # as the spec writes it
 
-    @property
-    def mode(self) -> str:
-        return "live" if self.kind == "scene" else "replayed"
-
 
 @dataclass(frozen=True)
 class Choice:
@@ -97,6 +93,7 @@ class Spec:
     axes: tuple[Axis, ...]
     sample: Sample | None = None
     drop: tuple[Condition, ...] = ()
+    replay: bool = False  # record each scene once and replay where that can serve
     limits: Limits = field(default_factory=Limits)
     measures: tuple[str, ...] = ()  # columns that the report shows first
     optimize: Optimize | None = None

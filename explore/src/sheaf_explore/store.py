@@ -114,20 +114,21 @@ class Store:
             Entry(
                 point_id(point, simulator.parameters, hashes[point.source], simulator.hash),
                 point.source.name,
-                point.source.mode,
+                point.mode,
                 point.labels,
                 point.settings,
             )
             for point in points
         ]
 
-    def job(self, entry: Entry, point: Point, spec: Spec, simulator: Simulator, cache: Path) -> Job:
-        """The work order of a point."""
+    def job(self, entry: Entry, arguments: list[str], spec: Spec, simulator: Simulator) -> Job:
+        """The work order of a point, or of a recording."""
         return Job(
             entry.id,
             str(self.folder),
-            tuple(simulator.arguments(point.source, point.settings, cache)),
+            tuple(arguments),
             _point_text(entry, simulator.hash),
+            "--parent" in simulator.options(arguments[1]),
             spec.limits.seconds,
             spec.limits.memory,
         )

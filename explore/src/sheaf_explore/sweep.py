@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 from distributed import Client
@@ -18,6 +19,7 @@ from sheaf_explore.points import expand, Point
 from sheaf_explore.progress import ProgressWatcher
 from sheaf_explore.quantities import format_duration
 from sheaf_explore.read_spec import read_spec
+from sheaf_explore.recording import mark_replayed, recorded_by, Recordings, replayable
 from sheaf_explore.simulator import Simulator
 from sheaf_explore.spec import Spec
 from sheaf_explore.store import Entry, Store
@@ -36,6 +38,9 @@ def load_spec(path: Path, simulator: Simulator) -> Spec:
     """Reads a spec and has the simulator check what only it can. Raises ExploreError."""
     spec = read_spec(path, simulator.parameters)
     simulator.check_replay(spec.sources)
+    if spec.replay and not simulator.records:
+        line = line_of(spec.text, ("replay",))
+        raise ExploreError(f"{path}:{line}: {simulator.path} cannot record and replay rays")
     _check_values(spec, simulator)
     return spec
 
@@ -72,10 +77,24 @@ class Sweep:
     def jobs(self) -> list[Job]:
         """Work orders of all points that have no result yet."""
         return [
-            self.store.job(entry, point, self.spec, self.simulator, self.cache)
+            self.store.job(entry, self.arguments(point), self.spec, self.simulator)
             for entry, point in zip(self.entries, self.points, strict=True)
             if not self.store.is_done(entry.id)
         ]
+
+    def arguments(self, point: Point) -> list[str]:
+        """The command line of a point, without its folder."""
+        if not point.from_recording:
+            return self.simulator.arguments(point.source, point.settings, self.cache)
+        recording = self.recordings.entry(recorded_by(point))
+        trace = self.recordings.trace(recording)
+        free = replayable(point.settings)
+        return self.simulator.replaying(trace, point.source, free, self.cache)
+
+    @cached_property
+    def recordings(self) -> Recordings:
+        """The rays that this sweep records."""
+        return Recordings(self.store, self.simulator, self.spec, self.cache)
 
     def describe(self, entry: Entry) -> str:
         """A point in words, for messages."""
@@ -86,6 +105,8 @@ class Sweep:
 def plan_sweep(spec: Spec, simulator: Simulator, store: Store, cache: Path) -> Sweep:
     """Expands the spec and records the points; the store must be open."""
     points = expand(spec, simulator.parameters)
+    if spec.replay:
+        points = mark_replayed(points)
     return Sweep(spec, simulator, store, points, store.plan(spec, simulator, points), cache)
 
 
@@ -117,8 +138,36 @@ def run_sweep(sweep: Sweep, choice: ClusterChoice, say: Say) -> Result:
     tally = Tally()
     if todo:
         with open_cluster(choice) as client:
-            tally = run_jobs(client, sweep, todo)
+            sweep, tally = _record(client, sweep, say)
+            if not tally.interrupted:
+                tally = run_jobs(client, sweep, [j for j in sweep.jobs() if j.id not in refused])
     return _result(sweep, len(jobs), len(refused), tally)
+
+
+def _record(client: Client, sweep: Sweep, say: Say) -> tuple[Sweep, Tally]:
+    """Records what the sweep replays; points whose recording fails are traced live instead."""
+    groups = sweep.recordings.missing(
+        point
+        for entry, point in zip(sweep.entries, sweep.points, strict=True)
+        if not sweep.store.is_done(entry.id)
+    )
+    if not groups:
+        return sweep, Tally()
+    jobs = [sweep.recordings.job(group) for group in groups]
+    store = sweep.recordings.store
+    with ProgressWatcher(len(jobs), {job.id: "recording" for job in jobs}) as watcher:
+        tally = Engine(client, store, sweep.spec.limits.retries, watcher).run(jobs)
+    if not tally.failed:
+        return sweep, tally
+    say("points without a recording are traced live")
+    points = [
+        point
+        if not point.from_recording or sweep.recordings.is_there(recorded_by(point))
+        else replace(point, from_recording=False)
+        for point in sweep.points
+    ]
+    entries = sweep.store.plan(sweep.spec, sweep.simulator, points)
+    return replace(sweep, points=points, entries=entries), tally
 
 
 def _result(sweep: Sweep, todo: int, remembered: int, tally: Tally) -> Result:
@@ -158,7 +207,10 @@ def probe(sweep: Sweep, choice: ClusterChoice, count: int, say: Say) -> Result:
     tally = Tally()
     if chosen:
         with open_cluster(choice) as client:
-            tally = run_jobs(client, sweep, chosen)
+            sweep, tally = _record(client, sweep, say)
+            if not tally.interrupted:
+                names = {job.id for job in chosen}
+                tally = run_jobs(client, sweep, [j for j in sweep.jobs() if j.id in names])
     left = len(jobs) - tally.done - len(tally.failed)
     times = tally.seconds or [
         record["seconds"] for record in sweep.store.journal() if record["kind"] == "done"

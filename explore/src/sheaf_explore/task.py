@@ -44,6 +44,7 @@ class Job:
     folder: str  # of the sweep
     arguments: tuple[str, ...]  # command line without --out
     point: str  # contents of point.json
+    ends_with_worker: bool  # the command takes --parent
     seconds: float | None
     memory: int | None
 
@@ -133,7 +134,9 @@ def _make_safe(job: Job, result: Path) -> None:
 def _simulate(job: Job, work: Path, running: MutableMapping[str, int]) -> Outcome:
     result = work / "result"
     shutil.rmtree(result, ignore_errors=True)
-    words = [*job.arguments, "--out", str(result), "--quiet", "--parent", str(os.getpid())]
+    words = [*job.arguments, "--out", str(result), "--quiet"]
+    if job.ends_with_worker:
+        words += ["--parent", str(os.getpid())]
     started = time.monotonic()
     try:
         with (work / "stderr").open("wb") as errors:
