@@ -95,10 +95,11 @@ def wait_until_gone(word: str) -> None:
 
 
 class Driver:
-    """A sweep as a process of its own, with two worker processes."""
+    """A sweep as a process of its own, with two workers: processes or threads."""
 
-    def __init__(self, spec: Path, sheaf: Path, out: Path) -> None:
-        words = ["sweep", spec, "--sheaf", sheaf, "--out", out, "-j", 2, "--processes"]
+    def __init__(self, spec: Path, sheaf: Path, out: Path, processes: bool = True) -> None:
+        words = ["sweep", spec, "--sheaf", sheaf, "--out", out, "-j", 2]
+        words += ["--processes"] if processes else []
         command = [sys.executable, "-m", "sheaf_explore", *map(str, words)]
         self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
 
@@ -110,7 +111,7 @@ class Driver:
         return [p for p in self.children() if "spawn_main" in " ".join(_command(p))]
 
     def simulators(self) -> list[psutil.Process]:
-        return [p for p in self.children() if "--parent" in _command(p)]
+        return [p for p in self.children() if "--out" in _command(p)]
 
     def kill_all(self) -> list[psutil.Process]:
         """Kills the sweep itself; gives what has to end by itself."""
@@ -220,3 +221,24 @@ def test_a_run_whose_parent_is_gone_does_not_begin(
     assert done.returncode == 130
     assert "--parent 1" in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("processes", [True, False])
+def test_a_long_run_ends_with_its_killed_sweep(
+    sheaf: Path, tiny_scene: Path, tmp_path: Path, processes: bool
+) -> None:
+    spec = tmp_path / "spec.toml"
+    spec.write_text('scenes = ["tiny.gltf"]\n[set]\nimage = { width = 16384, height = 16384 }\n')
+    driver = Driver(spec, sheaf, tmp_path / "out", processes)
+    try:
+        deadline = time.monotonic() + 60
+        while not driver.simulators():
+            assert time.monotonic() < deadline and driver.process.poll() is None
+            time.sleep(0.05)
+        simulator = driver.simulators()[0]
+        assert simulator.is_running()
+    finally:
+        _, left = psutil.wait_procs(driver.kill_all(), timeout=15)
+    for process in left:
+        process.kill()
+    assert not left, "processes outlived their sweep"

@@ -187,11 +187,12 @@ def pareto_plot(table: Table, cost: str, against: str) -> Plot:
     data["front"] = False
     for _, rows in data.groupby("scene"):
         data.loc[rows.index, "front"] = pareto_front(rows[["x", "y"]].to_numpy(dtype=float))
+    wide = data["x"].min() > 0 and data["x"].max() > _WIDE * data["x"].min()
     x = alt.X(
         "x:Q",
         title=f"{cost} [{shown}]" if shown else cost,
-        scale=alt.Scale(zero=False),
-        axis=_SHORT,
+        scale=alt.Scale(type="log", nice=False) if wide else alt.Scale(zero=False),
+        axis=alt.Axis(format=",.6~g", labelOverlap=True),
     )
     y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_SHORT)
     legend = _below() if data["scene"].nunique() > 1 else None
