@@ -105,6 +105,19 @@ def test_a_refusal_is_remembered_and_other_failures_are_tried_again(
     assert starts(stand_in) == 3
 
 
+def test_a_point_out_of_memory_fails_and_is_tried_again(
+    explore: Explore, sheaf: Path, tiny_scene: Path, tmp_path: Path
+) -> None:
+    spec = tmp_path / "spec.toml"
+    text = 'scenes = ["tiny.gltf"]\n[set]\nimage = { width = 2048, height = 2048 }\n'
+    spec.write_text(text + '[limits]\nmemory = "100MiB"\nretries = 0\n')
+    for _ in range(2):
+        done = explore("sweep", spec, "--sheaf", sheaf, "--out", tmp_path / "out")
+        assert done.returncode == 1
+        assert "out of memory" in done.stderr
+    assert [r["kind"] for r in Store(tmp_path / "out").journal()] == ["memory", "memory"]
+
+
 def test_a_crash_is_tried_again_and_can_succeed(sweep: Sweep, stand_in: Simulator) -> None:
     done = sweep(axis("dram.latency", [16]))
     assert done.returncode == 0

@@ -51,7 +51,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one attempt; `kind` is done, refused, timeout, signal or cancelled."""
+    """What became of one attempt; `kind` is done, refused, memory, timeout, signal or cancelled."""
 
     id: str
     kind: str
@@ -197,7 +197,8 @@ def _judge(
     said = (work / "stderr").read_bytes()[-_MESSAGE_BYTES:].decode(errors="replace").strip()
     reason = _EXIT_MEANINGS.get(code, f"exit status {code}")
     last = said.splitlines()[-1].removeprefix("sheaf: ") if said else "no message"
-    return outcome("refused", f"{reason}: {last}")
+    # The simulator refuses what does not fit into memory; with more of it, it would not.
+    return outcome("memory" if "out of memory" in last else "refused", f"{reason}: {last}")
 
 
 def run_on_worker(job: Job) -> Outcome:
