@@ -91,6 +91,12 @@ def stand_in(tmp_path: Path) -> Simulator:
     return Simulator(script)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Keeps trees out of the user's cache."""
+    os.environ["XDG_CACHE_HOME"] = str(tmp_path_factory.mktemp("cache"))
+
+
 @pytest.fixture(scope="session")
 def sheaf() -> Path:
     """The simulator itself: $SHEAF or a build of this checkout."""

@@ -54,7 +54,7 @@ Slurm = Annotated[
 ]
 Cache = Annotated[
     Path | None,
-    typer.Option("--cache", help="Where runs share scenes and trees (default ~/.cache/sheaf)"),
+    typer.Option("--cache", help="Where runs share kd-trees, or none (default ~/.cache/sheaf)"),
 ]
 
 
