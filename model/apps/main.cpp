@@ -8,6 +8,7 @@
 #include <new>
 #include <systemc>
 
+#include "apps/memory_command.h"
 #include "apps/run_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
@@ -22,6 +23,7 @@ constexpr const char* kFooter =
 
 struct Commands {
   sheaf::RunOptions run;
+  sheaf::MemoryOptions memory;
   std::string info_scene;
   bool schema = false;
 };
@@ -43,6 +45,8 @@ void declare(CLI::App& app, Commands& commands) {
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
   run->footer(kFooter);
 
+  sheaf::declare_memory_command(app, commands.memory);
+
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
 
@@ -53,6 +57,7 @@ void declare(CLI::App& app, Commands& commands) {
 
 int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
+  if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("config")) {
     const std::string text =
