@@ -83,3 +83,21 @@ build_preset() {
   say "Building with $jobs jobs"
   cmake --build --preset "$1" --parallel "$jobs" || die "the build failed; see above"
 }
+
+# Makes build/venv with the Python package of explore/ and all it needs, at the versions of
+# explore/requirements.txt; does nothing if it is up to date.
+prepare_python() {
+  local wanted
+  wanted=$(cat explore/requirements.txt explore/pyproject.toml | sha256sum)
+  if [ "$wanted" = "$(cat build/venv/made-from 2>/dev/null)" ]; then
+    say "Python packages: all there"
+    return
+  fi
+  say "Python packages: installing explore/requirements.txt into build/venv"
+  rm -rf build/venv
+  quietly venv "${SHEAF_PYTHON:-python3}" -m venv build/venv
+  local pip=(build/venv/bin/python -m pip --quiet --disable-pip-version-check install)
+  quietly pip-packages "${pip[@]}" --require-hashes --requirement explore/requirements.txt
+  quietly pip-explore "${pip[@]}" --no-deps --no-build-isolation --editable explore
+  printf '%s\n' "$wanted" >build/venv/made-from
+}

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 #include <systemc>
 
 #include "apps/memory_command.h"
+#include "apps/replay_command.h"
 #include "apps/run_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
@@ -19,14 +21,65 @@ namespace {
 
 constexpr const char* kFooter =
     "Exit codes: 0 done; 1 bug of the simulator; 2 command line or configuration refused;\n"
-    "3 scene refused; 4 result not written; 5 machine stuck; 130 interrupted (partial result).";
+    "3 scene refused; 4 result not written; 5 machine stuck; 6 trace refused;\n"
+    "130 interrupted (partial result).";
 
 struct Commands {
   sheaf::RunOptions run;
   sheaf::MemoryOptions memory;
+  sheaf::ReplayOptions replay;
   std::string info_scene;
   bool schema = false;
+  bool resolve = false;
+  sheaf::RunOptions resolved;
 };
+
+template <typename Options>
+void declare_machine(CLI::App& command, Options& options) {
+  command.add_option("--config", options.config, "TOML file with parameters of the machine");
+  command
+      .add_option("--set", options.settings,
+                  "Set one parameter, for example --set ray_cache.heuristic=mdir(96); repeatable")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+template <typename Options>
+void declare_cache(CLI::App& command, Options& options) {
+  command
+      .add_option("--cache", options.cache,
+                  "Folder in which kd-trees are kept from run to run, or none (default sheaf in "
+                  "$XDG_CACHE_HOME or ~/.cache; at most 1 GiB)")
+      ->type_name("DIR");
+}
+
+template <typename Options>
+void declare_parent(CLI::App& command, Options& options) {
+  command.add_option("--parent", options.parent,
+                     "End with the process of this number, which must have started this one");
+}
+
+void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
+  CLI::App* replay =
+      app.add_subcommand("replay", "Run a recorded trace on another machine, without shading");
+  replay->add_option("TRACE", options.trace, "Trace that 'sheaf run --record' wrote")->required();
+  declare_machine(*replay, options);
+  declare_cache(*replay, options);
+  replay->add_option("--scene", options.scene,
+                     "Rays: the scene it was recorded from, if it is no longer where it was");
+  replay->add_option("--out", options.out, "Folder for the results (default result/replay)");
+  replay->add_flag("--quiet", options.quiet, "Print no summary");
+  declare_parent(*replay, options);
+  replay->footer(
+      std::string(
+          "What is not set is as it was recorded. Ray traces replay on any ray cache, heuristic, "
+          "packet\n"
+          "size, traversal scheme and memory, and give the counters of a live run; no picture is "
+          "made.\n"
+          "Example: sheaf replay result/sponza/rays.trace --set ray_cache.heuristic=mdir(96)\n\n") +
+      kFooter);
+}
 
 void declare(CLI::App& app, Commands& commands) {
   app.require_subcommand(1);
@@ -35,34 +88,50 @@ void declare(CLI::App& app, Commands& commands) {
 
   CLI::App* run = app.add_subcommand("run", "Simulate one frame of a scene on one machine");
   run->add_option("SCENE", commands.run.scene, "glTF 2.0 file (.gltf or .glb)")->required();
-  run->add_option("--config", commands.run.config, "TOML file with parameters of the machine");
-  run->add_option("--set", commands.run.settings,
-                  "Set one parameter, for example --set ray_cache.heuristic=mdir(96); repeatable")
-      ->type_name("KEY=VALUE")
+  declare_machine(*run, commands.run);
+  declare_cache(*run, commands.run);
+  run->add_option("--record", commands.run.record,
+                  "Also write a trace into the folder: rays (rays.trace) or memory (memory.trace)")
+      ->type_name("KIND")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember({"rays", "memory"}));
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
+  declare_parent(*run, commands.run);
   run->footer(kFooter);
 
   sheaf::declare_memory_command(app, commands.memory);
+  declare_replay(app, commands.replay);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
 
   CLI::App* config = app.add_subcommand("config", "Print every parameter with default and meaning");
-  config->add_flag("--schema", commands.schema, "Print a JSON schema instead");
+  CLI::Option* schema =
+      config->add_flag("--schema", commands.schema, "Print a JSON schema instead");
+  CLI::Option* resolve =
+      config->add_flag("--resolve", commands.resolve,
+                       "Print the configuration that --config and --set make instead");
+  resolve->excludes(schema);
+  declare_machine(*config, commands.resolved);
+  for (const char* setting : {"--config", "--set"}) config->get_option(setting)->needs(resolve);
   app.add_subcommand("counters", "Print every counter with unit and meaning");
+}
+
+std::string config_output(const Commands& commands) {
+  if (commands.schema) return sheaf::config_schema();
+  if (commands.resolve) return sheaf::resolved_config(commands.resolved);
+  return sheaf::describe_parameters();
 }
 
 int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
+  if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("config")) {
-    const std::string text =
-        commands.schema ? sheaf::config_schema() : sheaf::describe_parameters();
-    std::fputs(text.c_str(), stdout);
+    std::fputs(config_output(commands).c_str(), stdout);
   } else {
     std::fputs(sheaf::print_counters(sheaf::counter_groups()).c_str(), stdout);
   }
@@ -78,6 +147,8 @@ int report_error(sheaf::ExitCode code, const char* what) {
 
 // SystemC's library brings a main() that prints its banner; this one does not.
 int main(int argc, char** argv) {
+  // A limit on file sizes then shows as a write that fails, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
   return sc_core::sc_elab_and_sim(argc, argv);
 }

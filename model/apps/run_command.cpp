@@ -4,91 +4,21 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <csignal>
 #include <cstdio>
+#include <tuple>
 
+#include "apps/frame_run.h"
+#include "apps/parent_death.h"
+#include "apps/recording.h"
 #include "base/errors.h"
-#include "config/check_config.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
-#include "report/images.h"
-#include "report/progress.h"
-#include "report/result_folder.h"
-#include "report/stats_json.h"
-#include "report/summary.h"
 #include "scene/load_gltf.h"
 #include "scene/scene_info.h"
-#include "system/coherence.h"
-#include "system/functional_pipeline.h"
-#include "system/machine.h"
-#include "system/report_parts.h"
+#include "sorting/heuristic.h"
 
 namespace sheaf {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-// Asks the run to end with what it has; a second signal ends the process.
-void on_interrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
-Vec3 to_vec(const Triple& t) {
-  return {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)};
-}
-
-template <typename To, typename From, typename F>
-std::optional<To> convert(const std::optional<From>& value, F&& f) {
-  return value ? std::optional<To>(f(*value)) : std::nullopt;
-}
-
-SceneLoadOptions load_options(const Config& config) {
-  const auto to_float = [](double x) { return static_cast<float>(x); };
-  SceneLoadOptions options;
-  options.reflectance = convert<float>(config.scene.reflectance, to_float);
-  options.background = to_vec(config.scene.background);
-  options.camera_name = config.camera.name;
-  options.camera_position = convert<Vec3>(config.camera.position, to_vec);
-  options.camera_look_at = convert<Vec3>(config.camera.look_at, to_vec);
-  options.camera_yfov = convert<float>(config.camera.yfov, to_float);
-  options.light_position = convert<Vec3>(config.light.position, to_vec);
-  options.light_intensity = convert<float>(config.light.intensity, to_float);
-  return options;
-}
-
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Simulates; fills the frame and the statistics. Returns true if the frame is complete.
-bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
-              StatsTree& stats) {
-  Progress progress;
-  if (config.run.fidelity == Fidelity::kFunctional) {
-    FunctionalPipeline pipeline(config, plan, scene, frame);
-    const bool complete = pipeline.run([&](double share) {
-      progress.update(share, "tracing");
-      return interrupted != 0;
-    });
-    pipeline.report(stats);
-    return complete;
-  }
-  Machine machine(config, plan, scene, frame);
-  const bool complete = machine.run([&](double share, Cycles now) {
-    progress.update(share, fmt::format("cycle {}", now));
-    return interrupted != 0;
-  });
-  machine.report(stats);
-  return complete;
-}
 
 std::filesystem::path output_folder(const RunOptions& options) {
   if (!options.out.empty()) return options.out;
@@ -98,55 +28,27 @@ std::filesystem::path output_folder(const RunOptions& options) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
+  if (options.parent) end_with_parent(*options.parent);
   const Config config = resolve_config(options.config, options.settings);
-  const HeuristicChoice heuristic = HeuristicChoice::parse(config.ray_cache.heuristic);
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  // Refused before the scene is loaded.
+  static_cast<void>(HeuristicChoice::parse(config.ray_cache.heuristic));
+  check_recording(options.record, config);
+  catch_interrupts();
   ResultFolder folder(output_folder(options));
-
-  const Stopwatch load_watch;
-  LoadedScene loaded = load_scene(options.scene, load_options(config));
-  for (const std::string& warning : loaded.warnings) {
-    std::fputs(fmt::format("sheaf: note: {}\n", warning).c_str(), stderr);
+  FrameJob job{config, options.scene, options.scene.filename().string(), true, options.quiet, {}};
+  job.trees = tree_folder(options.cache);
+  if (!options.record.empty()) {
+    job.guest = [&](const PreparedScene& scene, Frame& frame) {
+      return std::make_unique<Recording>(options, config, scene, frame, folder);
+    };
   }
-  const double load_seconds = load_watch.seconds();
-  const BuildPlan plan = plan_machine(config, loaded.scene.needs);
-  const Stopwatch build_watch;
-  const PreparedScene scene(std::move(loaded.scene), config);
-  const double build_seconds = build_watch.seconds();
+  return run_frame(job, folder);
+}
 
-  Frame frame(config);
-  StatsTree stats;
-  stats.add_text("run.scene", options.scene.filename().string(), "Scene file");
-  stats.add_text("run.config_hash", config_hash(config), "Hash of the resolved configuration");
-  stats.add_text("run.heuristic", heuristic.to_string(), "Sorting heuristic");
-  report_scene(scene, plan, stats);
-  const Stopwatch run_watch;
-  const bool complete = simulate(config, plan, scene, frame, stats);
-  const double run_seconds = run_watch.seconds();
-  report_rays(frame.rays, stats);
-  if (config.measure.coherence && complete) {
-    CoherencePass coherence(config, scene);
-    coherence.run();
-    coherence.report(plan.secondary_rays, stats);
-  }
-  stats.add("run.complete", complete ? 1 : 0, "1", "1 if the frame is complete, 0 if partial");
-
-  const std::string summary =
-      summarize({config, plan, stats, complete, {load_seconds, build_seconds, run_seconds}});
-  folder.write("config.toml", config_toml(config, Comments::kMeanings));
-  write_images(config, frame, folder);
-  folder.write("summary.txt", summary);
-  folder.write("stats.json", stats_json(stats));
-  folder.commit();
-  if (!options.quiet) {
-    std::fputs(summary.c_str(), stdout);
-    std::fputs(fmt::format("Results: {}\n", folder.path().string()).c_str(), stdout);
-  }
-  if (complete) return static_cast<int>(ExitCode::kOk);
-  std::fputs("sheaf: stopped before the frame was complete; the results are marked as partial\n",
-             stderr);
-  return static_cast<int>(interrupted != 0 ? ExitCode::kInterrupted : ExitCode::kOk);
+std::string resolved_config(const RunOptions& options) {
+  const Config config = resolve_config(options.config, options.settings);
+  std::ignore = HeuristicChoice::parse(config.ray_cache.heuristic);
+  return config_toml(config, Comments::kMeanings);
 }
 
 int info_command(const std::filesystem::path& scene) {

@@ -14,12 +14,19 @@ struct RunOptions {
   std::optional<std::filesystem::path> config;
   std::vector<std::string> settings;  ///< key=value, in order
   std::filesystem::path out;          ///< empty: result/<name of the scene>
+  std::string cache;                  ///< see tree_folder()
+  std::vector<std::string> record;    ///< kinds of trace to be written: rays, memory
   bool quiet = false;                 ///< no summary on standard output
+  std::optional<int> parent;          ///< process with which the run is to end
 };
 
 /// `sheaf run`: loads, builds, simulates and writes the result folder. Returns an exit code; throws
 /// Error for what the user can mend.
 int run_command(const RunOptions& options);
+
+/// `sheaf config --resolve`: every parameter as `sheaf run` would use it. Throws Error as that
+/// would.
+std::string resolved_config(const RunOptions& options);
 
 /// `sheaf info`: what a scene holds and needs.
 int info_command(const std::filesystem::path& scene);

@@ -15,6 +15,7 @@ enum class ExitCode : int {
   kScene = 3,         ///< scene file refused
   kOutput = 4,        ///< a result could not be written
   kStuck = 5,         ///< the configured machine can make no progress
+  kTrace = 6,         ///< trace file refused
   kInterrupted = 130  ///< stopped by the user; partial results are marked as such
 };
 

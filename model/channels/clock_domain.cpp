@@ -11,6 +11,22 @@ constexpr std::uint64_t kMonitorInterval = 1U << 14;
 
 }  // namespace
 
+void Lookahead::bind(const ClockDomain& domain, const std::vector<std::size_t>& last,
+                     std::size_t agent) {
+  calendar_ = &domain.calendar();
+  const Reach reach = domain.reach(last, agent);
+  others_ = LinkMap::kFarAway;
+  nearest_ = *std::min_element(reach.begin(), reach.end());
+  for (std::size_t from = 0; from < reach.size(); ++from) {
+    if (from == agent) continue;
+    if (std::find(last.begin(), last.end(), from) != last.end()) {
+      neighbours_.push_back({from, reach[from]});
+    } else {
+      others_ = std::min(others_, reach[from]);
+    }
+  }
+}
+
 ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
     : sc_module(name), period_(period) {
   SC_HAS_PROCESS(ClockDomain);
@@ -18,9 +34,8 @@ ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_
 }
 
 std::size_t ClockDomain::add(Agent& agent) {
-  if (agents_.size() % kGroup == 0) groups_.emplace_back();
   agents_.push_back(&agent);
-  return agents_.size() - 1;
+  return calendar_.add();
 }
 
 Cycles ClockDomain::cycle_at(const sc_core::sc_time& offset) const {
@@ -37,21 +52,14 @@ Cycles ClockDomain::next_foreign_cycle() const {
   return cycle_at(sc_core::sc_time_to_pending_activity());
 }
 
-std::size_t ClockDomain::pop(Cycles time) {
-  std::size_t group = 0;
-  while (groups_[group].peek() != time) ++group;
-  return group * kGroup + groups_[group].pop(time);
-}
-
 void ClockDomain::run_until(Cycles limit) {
   limit_ = limit;
   for (;;) {
-    const Cycles next = next_wake();
+    const Cycles next = calendar_.next();
     if (next >= limit_ || next >= end_) return;
     now_ = next;
-    const std::size_t agent = pop(next);
-    const Cycles again = agents_[agent]->wake(next);
-    if (again != kNever) schedule(agent, again);
+    const std::size_t agent = calendar_.pop();
+    calendar_.schedule(agent, agents_[agent]->wake(next));
     if (stopped_) return;
     if (++num_wakes_ % kMonitorInterval == 0 && monitor_ && monitor_(now_)) {
       stopped_ = true;
@@ -75,7 +83,7 @@ void ClockDomain::advance() {
     run_until(foreign < end_ ? foreign : end_);
     if (stopped_) return finish();
     if (limit_ == 0) continue;  // the kernel was touched: ask it again how far to go
-    const Cycles next = next_wake();
+    const Cycles next = calendar_.next();
     if (next == kNever && foreign == kNever) {
       ran_dry_ = true;
       return finish();

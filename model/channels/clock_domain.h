@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <systemc>
 #include <vector>
 
 #include "base/units.h"
-#include "channels/timing_wheel.h"
+#include "channels/calendar.h"
+#include "channels/lookahead.h"
 
 namespace sheaf {
 
@@ -43,20 +45,37 @@ class ClockDomain : public sc_core::sc_module {
   std::size_t add(Agent& agent);
 
   /// Wakes `agent` at `time` or earlier.
-  void schedule(std::size_t agent, Cycles time) {
-    groups_[agent / kGroup].schedule(agent % kGroup, time);
-  }
+  void schedule(std::size_t agent, Cycles time) { calendar_.schedule(agent, time); }
 
   /// The running agent may act on its own at any cycle below this one.
   [[nodiscard]] Cycles horizon() {
-    const Cycles next = next_wake();
+    const Cycles next = calendar_.next();
     return next < limit_ ? next : limit_;
+  }
+
+  /// Something that agent `from` does can make `to` act `latency` cycles later, at the earliest. An
+  /// agent that declares nothing is taken to be a cycle away from every other.
+  void declare_link(std::size_t from, std::size_t to, Cycles latency) {
+    links_.add(from, to, latency);
+  }
+  /// Once all links have been declared: see LinkMap::reach.
+  [[nodiscard]] Reach reach(const std::vector<std::size_t>& last, std::size_t to) const {
+    return links_.reach(last, to, agents_.size());
   }
 
   /// Makes every agent act in the calendar's order, cycle by cycle: slower, with the same result.
   /// For tests of just that.
   void forbid_running_ahead() { in_step_ = true; }
   [[nodiscard]] bool in_step() const { return in_step_; }
+
+  /// An agent did something at this cycle, which may lie ahead of the calendar.
+  void happened(Cycles when) { latest_ = std::max(latest_, when); }
+  /// The last cycle in which any agent did something.
+  [[nodiscard]] Cycles latest() const { return latest_; }
+
+  [[nodiscard]] const Calendar& calendar() const { return calendar_; }
+  /// The cycle at which another SystemC process may act; no agent may go further.
+  [[nodiscard]] Cycles limit() const { return limit_; }
 
   /// The last cycle, exclusive, that the run may reach.
   [[nodiscard]] Cycles end() const { return end_; }
@@ -92,26 +111,17 @@ class ClockDomain : public sc_core::sc_module {
 
  private:
   void advance();
-  [[nodiscard]] Cycles next_wake() {
-    Cycles next = kNever;
-    for (TimingWheel& group : groups_) {
-      const Cycles time = group.peek();
-      if (time < next) next = time;
-    }
-    return next;
-  }
-  std::size_t pop(Cycles time);
   void run_until(Cycles limit);
   void finish();
   [[nodiscard]] Cycles next_foreign_cycle() const;
 
   const sc_core::sc_time period_;
-  // A calendar for every 64 agents: machines of the usual size have one, which stays small.
-  static constexpr std::size_t kGroup = TimingWheel::kMaxAgents;
-  std::vector<TimingWheel> groups_;
+  Calendar calendar_;
+  LinkMap links_;
   std::vector<Agent*> agents_;
   std::function<bool(Cycles)> monitor_;
   Cycles now_ = 0;
+  Cycles latest_ = 0;
   Cycles kernel_cycle_ = 0;  ///< sc_time_stamp() in cycles
   Cycles limit_ = 0;
   Cycles end_ = kNever;
@@ -122,18 +132,52 @@ class ClockDomain : public sc_core::sc_module {
   bool in_step_ = false;
 };
 
+/// The earliest time at which something can come over the links from some agents, for an agent that
+/// is acting at the moment.
+class Lookahead {
+ public:
+  /// Once all links have been declared; `last`: the agents at the other end of these links.
+  void bind(const ClockDomain& domain, const std::vector<std::size_t>& last, std::size_t agent);
+  /// Whether earliest() is later than `time`.
+  [[nodiscard]] bool is_beyond(Cycles time) const {
+    return calendar_->first_due() + nearest_ > time || earliest() > time;
+  }
+  [[nodiscard]] Cycles earliest() const {
+    Cycles earliest = calendar_->first_due() + others_;
+    for (const Neighbour& neighbour : neighbours_) {
+      earliest = std::min(earliest, calendar_->due(neighbour.agent) + neighbour.distance);
+    }
+    return earliest;
+  }
+
+ private:
+  struct Neighbour {
+    std::size_t agent = 0;
+    Cycles distance = 0;
+  };
+  const Calendar* calendar_ = nullptr;
+  std::vector<Neighbour> neighbours_;  ///< the nearest, each by itself
+  Cycles others_ = 0;                  ///< distance of the nearest of the others
+  Cycles nearest_ = 0;                 ///< distance of the nearest of all
+};
+
 /// Where a channel reports to: an agent, its domain, and the earliest time at which one of the
 /// agent's input channels has something for it.
 class Inbox {
  public:
-  void bind(ClockDomain& domain, std::size_t agent) {
+  /// `lag`: cycles that the agent can let an arrival lie, since nothing that it does about it is
+  /// felt elsewhere earlier than if it had acted that much later.
+  void bind(ClockDomain& domain, std::size_t agent, Cycles lag = 0) {
     domain_ = &domain;
     agent_ = agent;
+    lag_ = lag;
   }
   void expect(Cycles arrival) {
     if (arrival < next_) next_ = arrival;
-    domain_->schedule(agent_, arrival);
+    domain_->schedule(agent_, arrival + lag_);
   }
+  [[nodiscard]] ClockDomain& domain() const { return *domain_; }
+  [[nodiscard]] std::size_t agent() const { return agent_; }
   /// Wakes the agent without any input being there (a slot became free, a count changed).
   void nudge(Cycles time) { domain_->schedule(agent_, time); }
   [[nodiscard]] Cycles next() const { return next_; }
@@ -142,6 +186,7 @@ class Inbox {
  private:
   ClockDomain* domain_ = nullptr;
   std::size_t agent_ = 0;
+  Cycles lag_ = 0;
   Cycles next_ = kNever;
 };
 

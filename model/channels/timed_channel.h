@@ -10,20 +10,33 @@
 
 namespace sheaf {
 
+template <typename T>
+class TimedChannel;
+
 /// Producer's side of a timed channel. The names follow sc_fifo's; every call gives the caller's
-/// local cycle, since units run ahead of the kernel.
+/// local cycle, since units run ahead of the kernel. Ports are bound as SystemC has it; calls go
+/// straight to the one kind of channel there is, since they are made for every line and packet.
 template <typename T>
 class TimedOut : public virtual sc_core::sc_interface {
  public:
   /// Slots that a producer can fill at `now`: it learns of a read one latency later.
-  [[nodiscard]] virtual std::size_t num_free(Cycles now) = 0;
+  [[nodiscard]] std::size_t num_free(Cycles now) { return channel().num_free(now); }
   /// False, and nothing happens, if no slot is free.
-  virtual bool nb_write(const T& value, Cycles now) = 0;
+  bool nb_write(const T& value, Cycles now) { return channel().nb_write(value, now); }
   /// A write at `ready`, which may be earlier or later than that of what has been written already;
   /// of writes of the same cycle the lower rank comes first. The channel must have room.
-  virtual void write_ahead(const T& value, Cycles ready, std::uint32_t rank = 0) = 0;
+  void write_ahead(const T& value, Cycles ready, std::uint32_t rank = 0) {
+    channel().write_ahead(value, ready, rank);
+  }
   /// Wakes `producer` once a slot becomes free after a refused write.
-  virtual void notify_when_free(Inbox& producer) = 0;
+  void notify_when_free(Inbox& producer) { channel().notify_when_free(producer); }
+  /// Makes known who writes. A producer that stays unknown costs speed, see LinkMap::reach.
+  void add_producer(const Inbox& producer) { channel().add_producer(producer); }
+
+ private:
+  friend class TimedChannel<T>;
+  TimedOut() = default;
+  [[nodiscard]] TimedChannel<T>& channel() { return static_cast<TimedChannel<T>&>(*this); }
 };
 
 /// Consumer's side of a timed channel.
@@ -32,13 +45,24 @@ class TimedIn : public virtual sc_core::sc_interface {
  public:
   /// Arrival of the oldest value, or kNever. The reference stays valid, so that a consumer can look
   /// without a call.
-  [[nodiscard]] virtual const Cycles& next_arrival() const = 0;
+  [[nodiscard]] const Cycles& next_arrival() const { return next_arrival_; }
   /// True if the oldest value has arrived by `now`.
-  [[nodiscard]] bool has_arrived(Cycles now) const { return next_arrival() <= now; }
+  [[nodiscard]] bool has_arrived(Cycles now) const { return next_arrival_ <= now; }
   /// Takes the oldest value; has_arrived() must hold.
-  virtual T read(Cycles now) = 0;
+  T read(Cycles now) { return static_cast<TimedChannel<T>&>(*this).read(now); }
   /// The inbox that is told of every arrival.
-  virtual void set_consumer(Inbox& consumer) = 0;
+  void set_consumer(Inbox& consumer) {
+    static_cast<TimedChannel<T>&>(*this).set_consumer(consumer);
+  }
+  /// The agents that are known to write.
+  [[nodiscard]] const std::vector<std::size_t>& producers() const { return producers_; }
+
+ private:
+  friend class TimedChannel<T>;
+  TimedIn() = default;
+  Inbox* consumer_ = nullptr;
+  std::vector<std::size_t> producers_;
+  Cycles next_arrival_ = kNever;  ///< of the oldest value
 };
 
 /// Bounded, ordered link between units: a value written at cycle t arrives at t + latency, or
@@ -63,18 +87,18 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     ring_.resize(slots);
   }
 
-  [[nodiscard]] std::size_t num_free(Cycles now) override {
+  [[nodiscard]] std::size_t num_free(Cycles now) {
     drop_returned(now);
     return spec_.capacity - size_ - num_returning_;
   }
 
-  bool nb_write(const T& value, Cycles now) override {
+  bool nb_write(const T& value, Cycles now) {
     if (num_free(now) == 0) return false;
     write_ahead(value, now);
     return true;
   }
 
-  void write_ahead(const T& value, Cycles ready, std::uint32_t rank = 0) override {
+  void write_ahead(const T& value, Cycles ready, std::uint32_t rank = 0) {
     if (size_ == ring_.size()) grow();
     const Entry entry{ready, rank, value};
     std::size_t position = size_++;
@@ -85,11 +109,11 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     ++num_written_;
     if (position == 0) {
       update_head();
-      consumer_->expect(next_arrival_);
+      this->consumer_->expect(this->next_arrival_);
     }
   }
 
-  void notify_when_free(Inbox& producer) override {
+  void notify_when_free(Inbox& producer) {
     if (num_returning_ != 0) {  // the read has happened already, its credit is on the way
       producer.nudge(returning_[first_returning_]);
       return;
@@ -100,12 +124,10 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     waiting_.push_back(&producer);
   }
 
-  [[nodiscard]] const Cycles& next_arrival() const override { return next_arrival_; }
-
-  T read(Cycles now) override {
+  T read(Cycles now) {
     note_occupancy(now);
     const T value = ring_[head_].value;
-    last_arrival_ = next_arrival_;
+    last_arrival_ = this->next_arrival_;
     head_ = (head_ + 1) & (ring_.size() - 1);
     --size_;
     update_head();
@@ -113,7 +135,14 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     return value;
   }
 
-  void set_consumer(Inbox& consumer) override { consumer_ = &consumer; }
+  void add_producer(const Inbox& producer) {
+    this->producers_.push_back(producer.agent());
+    if (this->consumer_ != nullptr) declare_links(producer.agent());
+  }
+  void set_consumer(Inbox& consumer) {
+    this->consumer_ = &consumer;
+    for (const std::size_t producer : this->producers_) declare_links(producer);
+  }
 
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Most values held at the beginning of a cycle in which one was read, which is the most ever
@@ -132,6 +161,13 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     }
   };
   static constexpr std::size_t kFirstSlots = 16;
+  // Values go one way, credits the other.
+  void declare_links(std::size_t producer) {
+    ClockDomain& domain = this->consumer_->domain();
+    domain.declare_link(producer, this->consumer_->agent(), spec_.latency);
+    if (spec_.capacity == kUnbounded) return;
+    domain.declare_link(this->consumer_->agent(), producer, spec_.latency);
+  }
   void drop_returned(Cycles now) {
     while (num_returning_ != 0 && returning_[first_returning_] <= now) {
       first_returning_ = (first_returning_ + 1) & (returning_.size() - 1);
@@ -163,11 +199,11 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     if (held > max_size_) max_size_ = held;
   }
   void update_head() {
-    next_arrival_ = kNever;
+    this->next_arrival_ = kNever;
     if (size_ == 0) return;
-    next_arrival_ = ring_[head_].ready + spec_.latency;
-    if (last_arrival_ != kNever && next_arrival_ < last_arrival_ + spec_.interval) {
-      next_arrival_ = last_arrival_ + spec_.interval;
+    this->next_arrival_ = ring_[head_].ready + spec_.latency;
+    if (last_arrival_ != kNever && this->next_arrival_ < last_arrival_ + spec_.interval) {
+      this->next_arrival_ = last_arrival_ + spec_.interval;
     }
   }
 
@@ -179,7 +215,6 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   const Spec spec_;
-  Inbox* consumer_ = nullptr;
   std::vector<Inbox*> waiting_;
   std::vector<Entry> ring_;  ///< size is a power of two
   std::size_t head_ = 0;
@@ -188,7 +223,6 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   std::vector<Cycles> returning_;  ///< ring: when the producer learns of reads
   std::size_t first_returning_ = 0;
   std::size_t num_returning_ = 0;
-  Cycles next_arrival_ = kNever;  ///< of the oldest value
   Cycles last_arrival_ = kNever;  ///< of the value read last
   std::uint64_t num_written_ = 0;
 };

@@ -15,9 +15,11 @@ namespace sheaf {
 // are declared in parameters.cpp, and `sheaf config` prints them.
 
 enum class Fidelity : std::uint8_t { kFunctional, kTimed };
-enum class Scheme : std::uint8_t { kSingle, kMasked };
+enum class Scheme : std::uint8_t { kSingle, kMasked, kInterval, kIntervalEntry, kOmni };
 enum class FlowPolicy : std::uint8_t { kTile, kCredits };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
+enum class RayOrder : std::uint8_t { kArrival, kBreadthFirst };
+enum class ShaderCacheKey : std::uint8_t { kMaterial, kTexture };
 enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };
 enum class FilmFormat : std::uint8_t { kUnorm8, kHalf, kFloat, kExact };
 enum class CacheMode : std::uint8_t { kNormal, kPerfect, kAbsent };
@@ -88,9 +90,18 @@ struct RayCacheSpec {
   std::uint32_t cells{};
   std::optional<double> pos_relative;
   VictimPolicy victim{};
+  RayOrder order{};
+  bool group_by_kind{};
+  std::uint32_t resident_voxels{};
   Cycles timeout{};
   std::uint32_t rays_per_cycle{};
   Cycles latency{};
+};
+
+struct ShaderCacheSpec {
+  std::uint32_t cells{};
+  ShaderCacheKey key{};
+  std::uint32_t rays_per_cycle{};
 };
 
 struct PacketFifoSpec {
@@ -158,6 +169,7 @@ struct Config {
   ArbiterSpec packet_arbiter;
   RayCacheSpec ray_cache;
   PacketFifoSpec packet_fifo;
+  ShaderCacheSpec shader_cache;
   UnitSpec traversal_unit, intersection_unit, shader_unit;
   LinkSpec link;
   CacheSpec node_cache, triangle_cache, attribute_cache, texture_cache, film_cache;

@@ -101,6 +101,21 @@ std::string config_hash(const Config& config) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
+std::vector<std::string> changed_keys(const Config& a, const Config& b) {
+  Config bound_a;
+  Config bound_b;
+  const ParameterTable table_a = declare_parameters(bound_a);
+  const ParameterTable table_b = declare_parameters(bound_b);
+  bound_a = a;
+  bound_b = b;
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < table_a.parameters().size(); ++i) {
+    const Parameter& parameter = table_a.parameters()[i];
+    if (parameter.current() != table_b.parameters()[i].current()) keys.push_back(parameter.key);
+  }
+  return keys;
+}
+
 std::string describe_parameters() {
   Config defaults;
   const ParameterTable table = declare_parameters(defaults);

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "config/config.h"
 
@@ -25,6 +26,9 @@ enum class Comments : bool { kNone, kMeanings };
 /// 32 hexadecimal digits (XXH3, 128 bits) of config_toml without comments: equal for two
 /// configurations just when each parameter is.
 [[nodiscard]] std::string config_hash(const Config& config);
+
+/// The keys of the parameters in which two configurations differ, in the order of declaration.
+[[nodiscard]] std::vector<std::string> changed_keys(const Config& a, const Config& b);
 
 /// What `sheaf config` prints: key, default, range, unit and meaning of every parameter.
 [[nodiscard]] std::string describe_parameters();

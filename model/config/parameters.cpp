@@ -46,8 +46,14 @@ void declare_pipeline(ParameterTable& t, Config& c) {
   t.frequency("clock.frequency", c.clock.frequency, 1e9, 1e3, 1e12, "Core clock of the machine");
   t.count("packet.size", c.packet.size, 16, 1, 64, "rays", "Rays of a full packet");
   t.choice("traversal.scheme", c.traversal_scheme, Scheme::kMasked,
-           {{"single", Scheme::kSingle}, {"masked", Scheme::kMasked}},
-           "How a packet walks the kd-tree: ray by ray, or together with an active mask");
+           {{"single", Scheme::kSingle},
+            {"masked", Scheme::kMasked},
+            {"interval", Scheme::kInterval},
+            {"interval_entry", Scheme::kIntervalEntry},
+            {"omni", Scheme::kOmni}},
+           "How a packet walks the kd-tree: ray by ray; together with an active mask; with one "
+           "interval for all of a direction octant, from the root or from an entry point searched "
+           "first; or with an active mask in one pass, whatever the directions");
   t.choice("flow.control", c.flow.control, FlowPolicy::kTile,
            {{"tile", FlowPolicy::kTile}, {"credits", FlowPolicy::kCredits}},
            "What keeps the spawned rays within bounds: finishing a tile before the next begins, or "
@@ -63,10 +69,10 @@ void declare_pipeline(ParameterTable& t, Config& c) {
             {"secondary_first", ArbiterPolicy::kSecondaryFirst}},
            "Which packet a free traversal context gets");
   t.text("ray_cache.heuristic", c.ray_cache.heuristic, "dir",
-         "How rays are sorted: none, dir, mdir(x), fastpos, pos(x) or opos");
+         "How rays are sorted: none, dir, mdir(x), fastpos, pos(x), opos, ray5d(x) or grid(x)");
   t.count("ray_cache.cells", c.ray_cache.cells, 0, 0, 65536, "cells",
           "Cells of the ray cache; 0 = as many as the heuristic has keys (dir and fastpos 8, "
-          "mdir(x) x, pos 64)");
+          "mdir(x) x, ray5d(x) 6 * 32^x but at most 192, pos and grid 64)");
   t.optional_real("pos.relative", c.ray_cache.pos_relative, 0.0, 1.0, "1",
                   "The x of pos(x) as a fraction of the squared scene diagonal instead of squared "
                   "world units");
@@ -75,6 +81,14 @@ void declare_pipeline(ParameterTable& t, Config& c) {
             {"oldest", VictimPolicy::kOldest},
             {"lru", VictimPolicy::kLru}},
            "Which cell is evicted when a ray needs a new one and none is free");
+  t.choice("ray_cache.order", c.ray_cache.order, RayOrder::kArrival,
+           {{"arrival", RayOrder::kArrival}, {"breadth_first", RayOrder::kBreadthFirst}},
+           "When spawned rays are sorted: as they arrive; or held back, without bound but for flow "
+           "control, until nothing else is left, and then kind by kind, shadow rays first");
+  t.flag("ray_cache.group_by_kind", c.ray_cache.group_by_kind, false,
+         "Keep reflections, refractions and shadow rays in cells apart; none always does");
+  t.count("ray_cache.resident_voxels", c.ray_cache.resident_voxels, 4, 0, 1024, "voxels",
+          "Voxels of grid(x) scheduled last that are taken to be in the caches");
   t.count("ray_cache.timeout", c.ray_cache.timeout, 0, 0, kMaxCount, "cycles",
           "A cell that has been open for longer leaves as a packet; 0 = never");
   t.count("ray_cache.rays_per_cycle", c.ray_cache.rays_per_cycle, 4, 1, 64, "rays",
@@ -85,6 +99,16 @@ void declare_pipeline(ParameterTable& t, Config& c) {
           "Packets that the FIFO between ray cache and arbiter holds");
   t.count("packet_fifo.latency", c.packet_fifo.latency, 2, 1, kMaxLatency, "cycles",
           "From a packet's entry into the FIFO to its exit at the earliest");
+}
+
+void declare_shader_cache(ParameterTable& t, Config& c) {
+  t.count("shader_cache.cells", c.shader_cache.cells, 0, 0, 1024, "cells",
+          "Cells of the shader cache, which sorts traced rays before they are shaded; 0 = none");
+  t.choice("shader_cache.key", c.shader_cache.key, ShaderCacheKey::kMaterial,
+           {{"material", ShaderCacheKey::kMaterial}, {"texture", ShaderCacheKey::kTexture}},
+           "Rays of a cell met the same material, or materials of the same textures");
+  t.count("shader_cache.rays_per_cycle", c.shader_cache.rays_per_cycle, 4, 1, 64, "rays",
+          "Rays that the shader cache takes in a cycle");
 }
 
 void declare_unit(ParameterTable& t, const std::string& name, UnitSpec& spec,
@@ -199,6 +223,7 @@ ParameterTable declare_parameters(Config& config) {
   ParameterTable table;
   declare_run(table, config);
   declare_pipeline(table, config);
+  declare_shader_cache(table, config);
   declare_units(table, config);
   declare_memory(table, config);
   declare_tree_and_measures(table, config);

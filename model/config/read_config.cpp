@@ -155,9 +155,8 @@ void check_nesting(std::string_view text, const std::string& place) {
   }
 }
 
-void read_file(const ParameterTable& parameters, const std::filesystem::path& file) {
-  const std::string place = printable(file.string());
-  const std::string text = read_text(file);
+void read_toml(const ParameterTable& parameters, const std::string& text,
+               const std::string& place) {
   check_nesting(text, place);
   toml::table root;
   try {
@@ -220,7 +219,18 @@ Config resolve_config(const std::optional<std::filesystem::path>& file,
                       std::span<const std::string> settings) {
   Config config;
   const ParameterTable parameters = declare_parameters(config);
-  if (file) read_file(parameters, *file);
+  if (file) read_toml(parameters, read_text(*file), printable(file->string()));
+  for (const std::string& setting : settings) apply_setting(parameters, setting);
+  check_config(config);
+  return config;
+}
+
+Config resolve_config_over(const BaseConfig& base, const std::optional<std::filesystem::path>& file,
+                           std::span<const std::string> settings) {
+  Config config;
+  const ParameterTable parameters = declare_parameters(config);
+  read_toml(parameters, base.toml, printable(base.place));
+  if (file) read_toml(parameters, read_text(*file), printable(file->string()));
   for (const std::string& setting : settings) apply_setting(parameters, setting);
   check_config(config);
   return config;

@@ -23,4 +23,15 @@ namespace sheaf {
 [[nodiscard]] Config resolve_config(const std::optional<std::filesystem::path>& file,
                                     std::span<const std::string> settings);
 
+/// A configuration in TOML that stands somewhere else than in a file of its own.
+struct BaseConfig {
+  std::string toml;
+  std::string place;  ///< for messages
+};
+
+/// The same with `base` between the defaults and the file.
+[[nodiscard]] Config resolve_config_over(const BaseConfig& base,
+                                         const std::optional<std::filesystem::path>& file,
+                                         std::span<const std::string> settings);
+
 }  // namespace sheaf

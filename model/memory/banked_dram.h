@@ -27,6 +27,7 @@ class BankedDram final : public MainMemory, public Agent {
   BankedDram(const sc_core::sc_module_name& name, const DramDevice& device, double core_hz,
              ClockDomain& domain);
 
+  [[nodiscard]] std::size_t agent() const { return inbox_.agent(); }
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 

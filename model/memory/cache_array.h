@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +37,13 @@ class CacheArray {
       }
     }
     return false;
+  }
+
+  [[nodiscard]] bool holds(std::uint64_t line) const {
+    if (entries_.empty()) return false;
+    const Entry* const set = entries_.data() + (line & set_mask_) * ways_;
+    return std::any_of(set, set + ways_,
+                       [&](const Entry& entry) { return entry.tag == tag_of(line); });
   }
 
   /// Marks a line that touch() has just found as modified.

@@ -28,10 +28,11 @@ L2Cache::L2Cache(const sc_core::sc_module_name& name, const L2Spec& spec, ClockD
       spec_(spec),
       domain_(domain),
       agent_(domain.add(*this)),
+      lag_(spec.hit_latency - 1),
       line_shift_(static_cast<unsigned>(std::countr_zero(spec.line))),
       bank_shift_(static_cast<unsigned>(std::countr_zero(spec.banks))),
       payloads_(kMaxLine) {
-  inbox_.bind(domain, agent_);
+  inbox_.bind(domain, agent_, lag_);
   for (std::uint32_t bank = 0; bank < spec.banks; ++bank) {
     banks_.push_back({CacheArray(sets_per_bank(spec), spec.ways), {}, {}, 0, 0, false});
   }
@@ -41,19 +42,39 @@ L2Cache::L2Cache(const sc_core::sc_module_name& name, const L2Spec& spec, ClockD
 void L2Cache::end_of_elaboration() {
   in_requests->set_consumer(inbox_);
   next_request_ = &in_requests->next_arrival();
-  for (int i = 0; i < out_responses.size(); ++i) responses_.push_back(out_responses[i]);
-}
-
-Cycles L2Cache::wake(Cycles now) {
-  for (;;) {
-    act(now);
-    const Cycles next = next_event();
-    if (next >= domain_.horizon()) return next;
-    now = next;
+  for (int i = 0; i < out_responses.size(); ++i) {
+    out_responses[i]->add_producer(inbox_);
+    responses_.push_back(out_responses[i]);
   }
 }
 
+void L2Cache::expect_answers_from(std::size_t memory) {
+  memories_.push_back(memory);
+  domain_.declare_link(memory, agent_, 1);
+  domain_.declare_link(agent_, memory, 1);
+}
+
+void L2Cache::start_of_simulation() {
+  std::vector<std::size_t> sources = in_requests->producers();
+  sources.insert(sources.end(), memories_.begin(), memories_.end());
+  requests_ahead_.bind(domain_, sources, agent_);
+}
+
+Cycles L2Cache::wake(Cycles now) {
+  // A response may bring the next request nearer.
+  for (Cycles next = next_event(); is_safe(next, now); next = next_event()) act(next);
+  return next_event(lag_);
+}
+
+// Whether nothing that may still come can arrive before the event or with it.
+bool L2Cache::is_safe(Cycles event, Cycles now) const {
+  if (event <= now) return true;
+  if (domain_.in_step() || event >= domain_.limit() || event >= domain_.end()) return false;
+  return requests_ahead_.is_beyond(event);
+}
+
 void L2Cache::act(Cycles now) {
+  domain_.happened(now);
   while (!fills_.empty() && fills_.top().at <= now) {
     const Address address = fills_.top().address;
     fills_.pop();
@@ -74,14 +95,16 @@ void L2Cache::serve_queues(Cycles now) {
   }
 }
 
-Cycles L2Cache::next_event() const {
+// With requests put off by `lag`.
+Cycles L2Cache::next_event(Cycles lag) const {
   Cycles next = *next_request_;
-  if (!fills_.empty()) next = std::min(next, fills_.top().at);
-  if (num_queued_ == 0) return next;
-  for (const Bank& bank : banks_) {
-    if (!bank.queue.empty() && !bank.blocked) next = std::min(next, bank.free_at);
+  if (num_queued_ != 0) {
+    for (const Bank& bank : banks_) {
+      if (!bank.queue.empty() && !bank.blocked) next = std::min(next, bank.free_at);
+    }
   }
-  return next;
+  if (next != kNever) next += lag;
+  return fills_.empty() ? next : std::min(next, fills_.top().at);
 }
 
 void L2Cache::accept(const LineRequest& what, Cycles now) {

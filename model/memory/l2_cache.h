@@ -50,6 +50,9 @@ SHEAF_STATS(L2KindStats, SHEAF_L2_KIND_COUNTERS);
 /// A bank takes one request a cycle in order of arrival (of the same cycle: in order of the
 /// requesters' rank). The tag check takes hit_latency; a hit answers then, a miss asks DRAM then,
 /// and a line that a fill pushes out is sent to DRAM hit_latency after the fill.
+/// The L2 lags behind the calendar on purpose: what it does about a request is felt hit_latency
+/// later, so it lets requests gather and takes them in one wake-up, in order of time.
+///
 /// A read miss with no free MSHR holds its bank up. A written-back line that is there becomes
 /// dirty; one that is not goes on to DRAM without taking a place. `absent`: no storage, reads of
 /// the same line still share an MSHR; `perfect`: every request hits.
@@ -61,6 +64,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   /// One per requester, bound in the order of their numbers.
   sc_core::sc_port<TimedOut<LineResponse>, 0> out_responses;
   tlm_utils::simple_initiator_socket<L2Cache> to_dram;
+
+  /// A memory that is an agent of the domain and answers later, a cycle after it acts at the
+  /// earliest; to be told before the simulation starts.
+  void expect_answers_from(std::size_t memory);
 
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
@@ -100,6 +107,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   };
 
   void end_of_elaboration() override;
+  void start_of_simulation() override;
   void accept(const LineRequest& request, Cycles now);
   bool serve(Bank& bank, const Request& request, Cycles now);
   void serve_queues(Cycles now);
@@ -109,7 +117,9 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void dram_done(const tlm::tlm_generic_payload& payload, Cycles at);
   void fill(Address address, Cycles now);
   void act(Cycles now);
-  [[nodiscard]] Cycles next_event() const;
+  [[nodiscard]] Cycles next_event() const { return next_event(0); }
+  [[nodiscard]] Cycles next_event(Cycles lag) const;
+  [[nodiscard]] bool is_safe(Cycles event, Cycles now) const;
   L2KindStats& kind_of(const LineRequest& request) {
     return kind_stats_[static_cast<std::size_t>(request.kind)];
   }
@@ -124,7 +134,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   const L2Spec spec_;
   ClockDomain& domain_;
   std::size_t agent_;
+  const Cycles lag_;
   Inbox inbox_;
+  std::vector<std::size_t> memories_;  ///< agents that answer later
+  Lookahead requests_ahead_;           ///< and fills
   unsigned line_shift_;
   unsigned bank_shift_;
   std::vector<Bank> banks_;

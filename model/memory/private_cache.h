@@ -46,6 +46,9 @@ class PrivateCache {
   [[nodiscard]] std::uint64_t line_of(Address address) const { return address >> line_shift_; }
   [[nodiscard]] Cycles hit_latency() const { return spec_.hit_latency; }
 
+  /// `owner`: the agent that presents the accesses.
+  void bind(const Inbox& owner) { requests_.add_producer(owner); }
+
   /// One access to a line at cycle `now`.
   Result read(std::uint64_t line, DataKind kind, int waiter, Cycles now) {
     if (spec_.mode == CacheMode::kPerfect || array_.touch(line)) {
@@ -53,6 +56,15 @@ class PrivateCache {
       return Result::kHit;
     }
     return miss(line, kind, waiter, false, now);
+  }
+  /// As read() if the line is there; else false, and nothing happens.
+  bool read_if_hit(std::uint64_t line, DataKind kind) {
+    if (spec_.mode != CacheMode::kPerfect && !array_.touch(line)) return false;
+    count_hit(kind);
+    return true;
+  }
+  [[nodiscard]] bool holds(std::uint64_t line) const {
+    return spec_.mode == CacheMode::kPerfect || array_.holds(line);
   }
   /// As read(), for a read-modify-write: the line is dirty from now on, or once it has arrived.
   Result modify(std::uint64_t line, DataKind kind, int waiter, Cycles now);

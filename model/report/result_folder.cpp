@@ -18,8 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStagingName = ".sheaf-partial";
 constexpr const char* kCompleteMark = "stats.json";
-constexpr std::array<const char*, 5> kResultNames{"config.toml", "stats.json", "image.exr",
-                                                  "image.png", "summary.txt"};
+constexpr std::array<const char*, 7> kResultNames{"config.toml", "stats.json",  "image.exr",
+                                                  "image.png",   "summary.txt", "rays.trace",
+                                                  "memory.trace"};
 
 /// A finished result, or one whose run was killed. A lone config.toml may be a user's own.
 bool is_result(const fs::path& folder) {

@@ -17,17 +17,20 @@ struct PacketShader::Lane {
 
 void PacketShading::clear() {
   contributions.clear();
+  contributed = 0;
   triangles.clear();
   texels.clear();
   spawned.clear();
   num_post_shaded = 0;
 }
 
-void PacketShader::add(std::uint32_t pixel, const Vec3& radiance, PacketShading& out) const {
-  if (radiance != Vec3(0.0F)) out.contributions.push_back({pixel, radiance});
+void PacketShader::add(int lane, std::uint32_t pixel, const Vec3& radiance, PacketShading& out) {
+  if (radiance == Vec3(0.0F)) return;
+  out.contributions.push_back({pixel, radiance});
+  out.contributed |= LaneMask{1} << lane;
 }
 
-void PacketShader::shade(const RayPacket& packet, PacketShading& out) const {
+void PacketShader::shade(const RayPacket& packet, PacketShading& out) {
   out.clear();
   std::array<Lane, kMaxPacketSize> lanes;
   std::size_t num_lanes = 0;
@@ -37,12 +40,12 @@ void PacketShader::shade(const RayPacket& packet, PacketShading& out) const {
     const bool hit = packet.hit_triangle[i] != kNoHit;
     if ((packet.any_hit >> number & 1U) != 0) {
       ++out.num_post_shaded;
-      if (!hit) add(packet.tag[i].pixel, packet.weight[i], out);
+      if (!hit) add(number, packet.tag[i].pixel, packet.weight[i], out);
       continue;
     }
     const Ray ray = packet.get(number);
     if (!hit) {
-      add(ray.tag.pixel, shader_.missed(ray), out);
+      add(number, ray.tag.pixel, shader_.missed(ray), out);
       continue;
     }
     const Hit at{packet.hit_t[i], packet.hit_u[i], packet.hit_v[i], packet.hit_triangle[i]};
@@ -55,7 +58,7 @@ void PacketShader::shade(const RayPacket& packet, PacketShading& out) const {
     for (int k = 0; k < lane.surface.num_texels; ++k) {
       out.texels.push_back(lane.surface.texels[static_cast<std::size_t>(k)]);
     }
-    add(ray.tag.pixel, shader_.emitted(ray, lane.surface), out);
+    add(number, ray.tag.pixel, shader_.emitted(ray, lane.surface), out);
     if (layers_ != nullptr && ray.tag.kind == RayKind::kPrimary) keep_layers(lane);
   }
   pre_shade(lanes.data(), num_lanes, out);

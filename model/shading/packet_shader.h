@@ -4,28 +4,9 @@
 
 #include <vector>
 
-#include "shading/shader.h"
-#include "sorting/spawn_bundle.h"
-#include "traversal/ray_packet.h"
+#include "shading/shading_source.h"
 
 namespace sheaf {
-
-/// Something to be added to a pixel.
-struct PixelContribution {
-  std::uint32_t pixel = 0;
-  Vec3 radiance{0.0F};
-};
-
-/// Everything that shading one traced packet gives and reads. Reused between packets.
-struct PacketShading {
-  std::vector<PixelContribution> contributions;  ///< in lane order; nothing that is zero
-  std::vector<std::uint32_t> triangles;          ///< triangles whose attributes were read
-  std::vector<TexelAccess> texels;
-  SpawnBundle spawned;
-  int num_post_shaded = 0;  ///< shadow rays, whatever they met
-
-  void clear();
-};
 
 /// What primary hits leave for the picture's auxiliary layers; all are indexed by pixel.
 struct AuxiliaryLayers {
@@ -38,17 +19,17 @@ struct AuxiliaryLayers {
 
 /// Shades traced packets ray by ray: pre-shading where a ray hit something, background where it
 /// left the scene, post-shading where a shadow ray met no occluder.
-class PacketShader {
+class PacketShader final : public ShadingSource {
  public:
   /// `layers` may be null.
   PacketShader(const Scene& scene, const Shader::Options& options, AuxiliaryLayers* layers)
       : scene_(scene), shader_(scene, options), layers_(layers) {}
 
-  void shade(const RayPacket& packet, PacketShading& out) const;
+  void shade(const RayPacket& packet, PacketShading& out) override;
 
  private:
   struct Lane;
-  void add(std::uint32_t pixel, const Vec3& radiance, PacketShading& out) const;
+  static void add(int lane, std::uint32_t pixel, const Vec3& radiance, PacketShading& out);
   void pre_shade(const Lane* lanes, std::size_t num_lanes, PacketShading& out) const;
   void keep_layers(const Lane& lane) const;
 

@@ -4,25 +4,28 @@
 
 #include <algorithm>
 
+#include "sorting/kind_group.h"
+
 namespace sheaf {
 
-CellSorter::CellSorter(const SorterOptions& options, std::unique_ptr<Heuristic> heuristic,
-                       PacketPool& pool)
-    : RaySorter(pool),
-      victim_(options.victim),
-      heuristic_(std::move(heuristic)),
-      cells_(options.num_cells) {
+CellSorter::CellSorter(const SorterOptions& options, const Box& scene_bounds, PacketPool& pool)
+    : RaySorter(pool), victim_(options.victim), cells_(options.num_cells) {
+  heuristics_.resize(options.group_by_kind ? kNumKindGroups : 1);
+  for (auto& heuristic : heuristics_) {
+    heuristic = make_heuristic(options.heuristic, options.num_cells, scene_bounds);
+  }
   for (std::uint32_t cell = options.num_cells; cell-- > 0;) free_.push_back(cell);
 }
 
 void CellSorter::insert(const Ray& ray, Cycles now, std::vector<RayPacket*>& departures) {
   ++stats_.num_insertions;
-  std::uint32_t index = heuristic_->find(ray.origin, ray.direction);
+  const std::size_t group = heuristics_.size() > 1 ? kind_group(ray.tag.kind) : 0;
+  std::uint32_t index = heuristics_[group]->find(ray.origin, ray.direction);
   if (index != kNoCell) {
     ++stats_.num_hits;
   } else {
     ++stats_.num_misses;
-    index = open_cell(ray, now, departures);
+    index = open_cell(ray, group, now, departures);
   }
   Cell& cell = cells_[index];
   cell.packet->put(cell.num_rays++, ray);
@@ -31,7 +34,7 @@ void CellSorter::insert(const Ray& ray, Cycles now, std::vector<RayPacket*>& dep
   if (cell.num_rays == cell.packet->size) close(index, Departure::kFull, now, departures);
 }
 
-std::uint32_t CellSorter::open_cell(const Ray& ray, Cycles now,
+std::uint32_t CellSorter::open_cell(const Ray& ray, std::size_t group, Cycles now,
                                     std::vector<RayPacket*>& departures) {
   if (free_.empty()) {
     ++stats_.num_evictions;
@@ -39,8 +42,8 @@ std::uint32_t CellSorter::open_cell(const Ray& ray, Cycles now,
   }
   const std::uint32_t index = free_.back();
   free_.pop_back();
-  heuristic_->open(index, ray.origin, ray.direction);
-  cells_[index] = {pool_.acquire(), 0, now, ++rank_, rank_};
+  heuristics_[group]->open(index, ray.origin, ray.direction);
+  cells_[index] = {pool_.acquire(), 0, now, ++rank_, rank_, group};
   stats_.max_open_cells =
       std::max<std::uint64_t>(stats_.max_open_cells, cells_.size() - free_.size());
   return index;
@@ -68,8 +71,8 @@ void CellSorter::close(std::uint32_t index, Departure why, Cycles now,
   Cell& cell = cells_[index];
   count_departure(why, *cell.packet, cell.opened, now);
   departures.push_back(cell.packet);
+  heuristics_[cell.group]->close(index);
   cell = {};
-  heuristic_->close(index);
   free_.push_back(index);
 }
 

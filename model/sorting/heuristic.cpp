@@ -4,14 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "base/errors.h"
+#include "sorting/arrival.h"
 #include "sorting/dir.h"
 #include "sorting/fastpos.h"
 #include "sorting/mdir.h"
 #include "sorting/pos.h"
+#include "sorting/ray5d.h"
 
 namespace sheaf {
 namespace {
@@ -25,6 +28,9 @@ constexpr double kMaxDirectionCells = 6.0 * 256 * 256;
 // Squared distances that single precision, in which the hardware compares them, can hold.
 constexpr double kMinDistance2 = 1e-30;
 constexpr double kMaxDistance2 = 1e30;
+
+// 262,144 voxels: more than there are rays to wait in them.
+constexpr double kMaxVoxelsPerAxis = 64;
 
 [[noreturn]] void refuse(std::string_view text, std::string_view rule) {
   throw Error(ExitCode::kUsage, fmt::format("ray_cache.heuristic = '{}': {}", text, rule));
@@ -50,6 +56,30 @@ void check_mdir(std::string_view text, double x) {
   if (6.0 * k * k != x) refuse(text, "x of mdir(x) must be 6 k², for example 24, 96 or 216");
 }
 
+void check_whole(std::string_view text, double x, double least, double most,
+                 std::string_view rule) {
+  if (!(x >= least && x <= most) || x != std::floor(x)) refuse(text, rule);
+}
+
+HeuristicChoice parse_with_argument(std::string_view text, std::string_view name, double x) {
+  if (name == "mdir") {
+    check_mdir(text, x);
+    return {Kind::kMdir, x};
+  }
+  if (name == "pos") {
+    if (!(x >= kMinDistance2 && x <= kMaxDistance2)) {
+      refuse(text, "x of pos(x) must be 1e-30 to 1e30");
+    }
+    return {Kind::kPos, x};
+  }
+  if (name == "ray5d") {
+    check_whole(text, x, 0, Ray5dHeuristic::kMaxLevels, "x of ray5d(x) must be 0, 1, 2 or 3");
+    return {Kind::kRay5d, x};
+  }
+  check_whole(text, x, 1, kMaxVoxelsPerAxis, "x of grid(x) must be a whole number, 1 to 64");
+  return {Kind::kGrid, x};
+}
+
 }  // namespace
 
 HeuristicChoice HeuristicChoice::parse(std::string_view text) {
@@ -61,20 +91,13 @@ HeuristicChoice HeuristicChoice::parse(std::string_view text) {
   if (open != std::string_view::npos && text.ends_with(')')) {
     const std::string_view name = text.substr(0, open);
     const std::string_view argument = text.substr(open + 1, text.size() - open - 2);
-    if (name == "mdir") {
-      const double x = parse_argument(text, argument);
-      check_mdir(text, x);
-      return {Kind::kMdir, x};
-    }
-    if (name == "pos") {
-      const double x = parse_argument(text, argument);
-      if (!(x >= kMinDistance2 && x <= kMaxDistance2)) {
-        refuse(text, "x of pos(x) must be 1e-30 to 1e30");
-      }
-      return {Kind::kPos, x};
+    if (name == "mdir" || name == "pos" || name == "ray5d" || name == "grid") {
+      return parse_with_argument(text, name, parse_argument(text, argument));
     }
   }
-  refuse(text, "must be one of none, dir, mdir(x), fastpos, pos(x), opos; for example mdir(96)");
+  refuse(text,
+         "must be one of none, dir, mdir(x), fastpos, pos(x), opos, ray5d(x), grid(x); for example "
+         "mdir(96)");
 }
 
 std::string HeuristicChoice::to_string() const {
@@ -91,13 +114,31 @@ std::string HeuristicChoice::to_string() const {
       return fmt::format("pos({})", x);
     case Kind::kOpos:
       return "opos";
+    case Kind::kRay5d:
+      return fmt::format("ray5d({})", x);
+    case Kind::kGrid:
+      return fmt::format("grid({})", x);
   }
   return {};
 }
 
 std::uint32_t HeuristicChoice::natural_cells() const {
-  if (kind == Kind::kMdir) return static_cast<std::uint32_t>(x);
-  return kind == Kind::kPos ? 64 : 8;
+  switch (kind) {
+    case Kind::kNone:
+      return 1;
+    case Kind::kMdir:
+      return static_cast<std::uint32_t>(x);
+    case Kind::kPos:
+    case Kind::kGrid:
+      return 64;
+    case Kind::kRay5d:
+      return std::min(Ray5dHeuristic::num_keys(static_cast<std::uint32_t>(x)), 192U);
+    case Kind::kDir:
+    case Kind::kFastpos:
+    case Kind::kOpos:
+      break;
+  }
+  return 8;
 }
 
 std::unique_ptr<Heuristic> make_heuristic(const HeuristicChoice& choice, std::uint32_t num_cells,
@@ -111,8 +152,13 @@ std::unique_ptr<Heuristic> make_heuristic(const HeuristicChoice& choice, std::ui
       return std::make_unique<FastposHeuristic>(scene_bounds, num_cells);
     case Kind::kPos:
       return std::make_unique<PosHeuristic>(static_cast<float>(choice.x), num_cells);
+    case Kind::kRay5d:
+      return std::make_unique<Ray5dHeuristic>(static_cast<std::uint32_t>(choice.x), scene_bounds,
+                                              num_cells);
     case Kind::kNone:
+      return std::make_unique<ArrivalHeuristic>(num_cells);
     case Kind::kOpos:
+    case Kind::kGrid:
       break;
   }
   throw std::logic_error("this heuristic has no cells");

@@ -12,17 +12,20 @@
 
 namespace sheaf {
 
-/// Which sorting heuristic, as written in the paper's tables: none, dir, mdir(96), fastpos,
-/// pos(1.0), opos.
+/// Which sorting heuristic: as written in the paper's tables none, dir, mdir(96), fastpos,
+/// pos(1.0), opos; and from its field ray5d(2) and grid(8).
 struct HeuristicChoice {
-  enum class Kind : std::uint8_t { kNone, kDir, kMdir, kFastpos, kPos, kOpos };
+  enum class Kind : std::uint8_t { kNone, kDir, kMdir, kFastpos, kPos, kOpos, kRay5d, kGrid };
   Kind kind = Kind::kDir;
-  double x = 0.0;  ///< mdir: number of cells, 6 k²; pos: squared distance in scene units
+  /// mdir: number of cells, 6 k²; pos: squared distance in scene units; ray5d: levels of its tree;
+  /// grid: voxels along each axis.
+  double x = 0.0;
 
   /// Throws Error(kUsage) with the rule that the text breaks.
   [[nodiscard]] static HeuristicChoice parse(std::string_view text);
   [[nodiscard]] std::string to_string() const;
-  /// Cells that serve every key (dir, fastpos: 8, mdir(x): x); 64 for pos, which has no keys.
+  /// Cells that serve every key (dir, fastpos: 8, mdir(x): x, none: 1); at most 192 for ray5d; 64
+  /// for pos and grid, which have no keys.
   [[nodiscard]] std::uint32_t natural_cells() const;
 };
 
@@ -39,7 +42,8 @@ class Heuristic {
   virtual void close(std::uint32_t cell) = 0;
 };
 
-/// For every kind but none and opos, which use no cells. `num_cells`: cells of the ray cache.
+/// For every kind but opos and grid, which use no cells; `none` is packets in order of arrival.
+/// `num_cells`: cells of the ray cache.
 [[nodiscard]] std::unique_ptr<Heuristic> make_heuristic(const HeuristicChoice& choice,
                                                         std::uint32_t num_cells,
                                                         const Box& scene_bounds);

@@ -9,7 +9,8 @@
 namespace sheaf {
 
 void OposSorter::insert(const Ray& ray, Cycles now, std::vector<RayPacket*>& /*departures*/) {
-  auto& list = lists_[sign_code(ray.direction)];
+  const std::size_t group = by_kind_ ? kind_group(ray.tag.kind) : 0;
+  auto& list = lists_[group * 8 + sign_code(ray.direction)];
   ++stats_.num_insertions;
   // A sign configuration's list takes the place of a cell.
   if (list.empty()) {

@@ -5,16 +5,18 @@
 #include <array>
 #include <vector>
 
+#include "sorting/kind_group.h"
 #include "sorting/ray_sorter.h"
 
 namespace sheaf {
 
-/// opos: the paper's upper bound. Rays wait, unbounded, one list per direction-sign configuration,
+/// opos: the paper's upper bound. Rays wait, unbounded, one list per direction-sign configuration
+/// (and kind, if they are kept apart),
 /// until nothing else is left to trace; then packets are formed from the first ray and those with
 /// the nearest origins, until all have left. Rays that come later join the next round.
 class OposSorter final : public RaySorter {
  public:
-  explicit OposSorter(PacketPool& pool) : RaySorter(pool) {}
+  OposSorter(bool by_kind, PacketPool& pool) : RaySorter(pool), by_kind_(by_kind) {}
 
   void insert(const Ray& ray, Cycles now, std::vector<RayPacket*>& departures) override;
   void sweep(Departure why, Cycles now, std::vector<RayPacket*>& departures) override;
@@ -30,7 +32,8 @@ class OposSorter final : public RaySorter {
   void form_packets(std::vector<Waiting>& list, Departure why, Cycles now,
                     std::vector<RayPacket*>& departures);
 
-  std::array<std::vector<Waiting>, 8> lists_;
+  const bool by_kind_;
+  std::array<std::vector<Waiting>, 8 * kNumKindGroups> lists_;
 };
 
 }  // namespace sheaf

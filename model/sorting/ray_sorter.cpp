@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "sorting/breadth_first.h"
 #include "sorting/cell_sorter.h"
+#include "sorting/grid_sorter.h"
 #include "sorting/opos.h"
 
 namespace sheaf {
@@ -31,13 +33,26 @@ void RaySorter::count_departure(Departure why, const RayPacket& packet, Cycles o
   num_waiting_ -= rays;
 }
 
+namespace {
+
+std::unique_ptr<RaySorter> make_sorter_of_arrivals(const SorterOptions& options,
+                                                   const Box& scene_bounds, PacketPool& pool) {
+  if (options.heuristic.kind == HeuristicChoice::Kind::kOpos) {
+    return std::make_unique<OposSorter>(options.group_by_kind, pool);
+  }
+  if (options.heuristic.kind == HeuristicChoice::Kind::kGrid) {
+    return std::make_unique<GridSorter>(options, scene_bounds, pool);
+  }
+  return std::make_unique<CellSorter>(options, scene_bounds, pool);
+}
+
+}  // namespace
+
 std::unique_ptr<RaySorter> make_sorter(const SorterOptions& options, const Box& scene_bounds,
                                        PacketPool& pool) {
-  if (options.heuristic.kind == HeuristicChoice::Kind::kOpos) {
-    return std::make_unique<OposSorter>(pool);
-  }
-  return std::make_unique<CellSorter>(
-      options, make_heuristic(options.heuristic, options.num_cells, scene_bounds), pool);
+  auto sorter = make_sorter_of_arrivals(options, scene_bounds, pool);
+  if (options.order == RayOrder::kArrival) return sorter;
+  return std::make_unique<BreadthFirstSorter>(std::move(sorter), pool);
 }
 
 }  // namespace sheaf

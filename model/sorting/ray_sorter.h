@@ -49,7 +49,8 @@ inline constexpr int kNumDepartures = 6;
   X(sum_cell_residence, "cycles", "Cell residence times, first ray to departure, summed")       \
   X(max_cell_residence, "cycles", "Longest residence of a cell")                                \
   X(max_rays, "rays", "Most rays waiting in cells at a time")                                   \
-  X(max_open_cells, "cells", "Most cells open at a time")
+  X(max_open_cells, "cells", "Most cells open at a time")                                       \
+  X(max_held, "rays", "Most rays that breadth-first order held back at a time")
 SHEAF_STATS(RayCacheCounters, SHEAF_RAY_CACHE_COUNTERS);
 
 struct RayCacheStats : RayCacheCounters {
@@ -98,9 +99,12 @@ struct SorterOptions {
   HeuristicChoice heuristic;
   std::uint32_t num_cells = 8;
   VictimPolicy victim = VictimPolicy::kFullest;
+  bool group_by_kind = false;
+  std::uint32_t resident_voxels = 0;
+  RayOrder order = RayOrder::kArrival;
 };
 
-/// A sorter for any heuristic but none.
+/// A sorter for any heuristic; for none, which does not sort, only in breadth-first order.
 [[nodiscard]] std::unique_ptr<RaySorter> make_sorter(const SorterOptions& options,
                                                      const Box& scene_bounds, PacketPool& pool);
 

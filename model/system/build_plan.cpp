@@ -21,7 +21,8 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
                               bounces ? "no material transmits" : no_bounces);
   plan.secondary_rays = want(plan.shadow_rays || plan.reflection_rays || plan.refraction_rays,
                              "packet FIFO", "no ray is ever spawned");
-  const bool sorts = plan.heuristic.kind != HeuristicChoice::Kind::kNone;
+  const bool sorts = plan.heuristic.kind != HeuristicChoice::Kind::kNone ||
+                     config.ray_cache.order != RayOrder::kArrival;
   plan.ray_cache = plan.secondary_rays && sorts;
   if (!plan.ray_cache) {
     plan.left_out.push_back(
@@ -29,6 +30,8 @@ BuildPlan plan_machine(const Config& config, const SceneNeeds& needs) {
   }
   plan.texture_cache =
       want(needs.textures, "texture cache and UVs", "no material in use has a texture");
+  plan.shader_cache = config.shader_cache.cells != 0;
+  if (!plan.shader_cache) plan.left_out.push_back({"shader cache", "shader_cache.cells is 0"});
   if (!config.measure.coherence) {
     plan.left_out.push_back({"coherence pass", "measure.coherence is false"});
   }
@@ -44,6 +47,9 @@ SorterOptions sorter_options(const Config& config, const BuildPlan& plan, const 
   options.num_cells =
       config.ray_cache.cells != 0 ? config.ray_cache.cells : plan.heuristic.natural_cells();
   options.victim = config.ray_cache.victim;
+  options.group_by_kind = config.ray_cache.group_by_kind;
+  options.resident_voxels = config.ray_cache.resident_voxels;
+  options.order = config.ray_cache.order;
   if (config.ray_cache.pos_relative && plan.heuristic.kind == HeuristicChoice::Kind::kPos) {
     const Vec3d diagonal(scene_bounds.extent());
     options.heuristic.x = *config.ray_cache.pos_relative * glm::dot(diagonal, diagonal);

@@ -20,6 +20,7 @@ struct BuildPlan {
   bool secondary_rays = false;  ///< any of these: packet FIFO, and ray cache or spawn router
   bool ray_cache = false;       ///< else, with secondary rays, the spawn router of `none`
   bool texture_cache = false;
+  bool shader_cache = false;
   HeuristicChoice heuristic;
 
   struct LeftOut {

@@ -27,7 +27,7 @@ CoherencePass::CoherencePass(const Config& config, const PreparedScene& scene)
 
 void CoherencePass::run() {
   const int size = static_cast<int>(config_.packet.size);
-  const PacketShader shader(
+  PacketShader shader(
       scene_.scene,
       {config_.render.recursion_level, static_cast<float>(config_.render.weight_cutoff)}, nullptr);
   PacketPool pool(size);

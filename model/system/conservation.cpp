@@ -32,6 +32,16 @@ void check_sorter(const RayCacheStats& stats) {
                 "ray cache: evictions = packets evicted");
 }
 
+void check_shading_sorter(const ShaderCacheStats& stats) {
+  require_equal(stats.num_rays_in, stats.num_insertions + stats.num_bypassed,
+                "shader cache: rays in = insertions + bypassed");
+  require_equal(stats.num_insertions, stats.num_hits + stats.num_misses,
+                "shader cache: insertions = hits + misses");
+  require_equal(stats.num_insertions,
+                stats.num_rays_full + stats.num_rays_evicted + stats.num_rays_swept,
+                "shader cache: rays in = rays out");
+}
+
 template <typename Unit>
 void check_stalls(const std::string& name, const Unit& unit, Cycles end) {
   require_equal(unit.stalls().total(), end, name + ": stall account sums to all cycles");
@@ -47,6 +57,10 @@ void Machine::check_conservation() const {
   require_equal(batches_.num_out(), 0, "no film batch in flight at the end");
   require(l2_->is_idle(), "no memory request in flight at the end");
   if (ray_cache_) check_sorter(ray_cache_->sorter().stats());
+  if (shader_cache_) {
+    check_shading_sorter(shader_cache_->sorter().stats());
+    check_stalls("shader_cache", *shader_cache_, end_);
+  }
 
   std::uint64_t fetched = 0;
   std::uint64_t written = 0;

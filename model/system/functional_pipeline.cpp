@@ -11,21 +11,24 @@
 namespace sheaf {
 
 FunctionalPipeline::FunctionalPipeline(const Config& config, const BuildPlan& plan,
-                                       const PreparedScene& scene, Frame& frame)
+                                       const PreparedScene& scene, Frame& frame,
+                                       const RunHooks& hooks)
     : config_(config),
       plan_(plan),
       scene_(scene),
       frame_(frame),
       packets_(static_cast<int>(config.packet.size)),
-      shader_(scene.scene,
-              {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
-              &frame.layers),
+      shader_(make_shader(config, scene.scene, frame)),
+      shading_source_(hooks.shading != nullptr ? *hooks.shading : shader_),
       flow_(make_flow_control(config, plan, scene.scene)),
       order_(config.image.width, config.image.height, config.flow.tile_size,
              static_cast<int>(config.packet.size)) {
   if (plan_.ray_cache) {
     const Box& bounds = scene.scene.bounds;
     sorter_ = make_sorter(sorter_options(config, plan, bounds), bounds, packets_);
+  }
+  if (plan_.shader_cache) {
+    shading_sorter_ = std::make_unique<ShadingSorter>(config.shader_cache, scene.scene, packets_);
   }
 }
 
@@ -40,7 +43,7 @@ bool FunctionalPipeline::run(const Monitor& monitor) {
     if (!secondary && !next_primary(packet)) {
       if (!fifo_.empty()) {
         secondary = true;
-      } else if (sweep()) {
+      } else if (sweep_shader_cache() || sweep()) {
         continue;
       } else if (order_.is_done()) {
         return true;
@@ -92,7 +95,17 @@ void FunctionalPipeline::process(RayPacket* packet, TraceCounts& counts) {
   trace_packet(scheme_of(config_.traversal_scheme), scene_.tree, scene_.triangles, *packet, nullptr,
                per_lane ? &lanes_ : nullptr, counts);
   if (per_lane) frame_.heat.add(*packet, lanes_);
-  shader_.shade(*packet, shading_);
+  if (!shading_sorter_) {
+    shade(packet);
+    return;
+  }
+  to_shade_.clear();
+  shading_sorter_->insert(packet, to_shade_);
+  for (RayPacket* next : to_shade_) shade(next);
+}
+
+void FunctionalPipeline::shade(RayPacket* packet) {
+  shading_source_.shade(*packet, shading_);
   for (const PixelContribution& contribution : shading_.contributions) {
     frame_.film->add(contribution.pixel, contribution.radiance);
   }
@@ -127,6 +140,14 @@ void FunctionalPipeline::spawn() {
   fifo_.insert(fifo_.end(), departures_.begin(), departures_.end());
 }
 
+bool FunctionalPipeline::sweep_shader_cache() {
+  if (!shading_sorter_ || shading_sorter_->num_waiting() == 0) return false;
+  to_shade_.clear();
+  shading_sorter_->sweep(to_shade_);
+  for (RayPacket* packet : to_shade_) shade(packet);
+  return true;
+}
+
 bool FunctionalPipeline::sweep() {
   if (!sorter_ || sorter_->num_waiting() == 0) return false;
   departures_.clear();
@@ -140,6 +161,7 @@ bool FunctionalPipeline::sweep() {
 
 void FunctionalPipeline::report(StatsTree& stats) const {
   if (sorter_) report_sorter(*sorter_, "system.ray_cache", stats);
+  if (shading_sorter_) report_shading_sorter(*shading_sorter_, "system.shader_cache", stats);
   report_traces(primary_counts_, secondary_counts_, plan_.secondary_rays, stats);
 }
 

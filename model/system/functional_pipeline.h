@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "scene/tile_order.h"
+#include "sorting/shading_sorter.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
 #include "system/prepared_scene.h"
+#include "system/run_hooks.h"
 #include "units/shader_unit.h"
 
 namespace sheaf {
@@ -21,7 +23,7 @@ namespace sheaf {
 class FunctionalPipeline {
  public:
   FunctionalPipeline(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
-                     Frame& frame);
+                     Frame& frame, const RunHooks& hooks = {});
 
   /// Called once a tile with the share of the tiles that have been begun; returns true to stop.
   using Monitor = std::function<bool(double progress)>;
@@ -36,9 +38,11 @@ class FunctionalPipeline {
  private:
   bool next_primary(RayPacket*& packet);
   void process(RayPacket* packet, TraceCounts& counts);
+  void shade(RayPacket* packet);
   void retire(const RayPacket& packet);
   void spawn();
   bool sweep();
+  bool sweep_shader_cache();
 
   const Config config_;
   const BuildPlan plan_;
@@ -46,9 +50,12 @@ class FunctionalPipeline {
   Frame& frame_;
   PacketPool packets_;
   PacketShader shader_;
+  ShadingSource& shading_source_;
   FlowControl flow_;
   TileOrder order_;
   std::unique_ptr<RaySorter> sorter_;
+  std::unique_ptr<ShadingSorter> shading_sorter_;
+  std::vector<RayPacket*> to_shade_;
   std::deque<RayPacket*> fifo_;
   std::vector<RayPacket*> departures_;
   RayPacket* held_primary_ = nullptr;  ///< made, but not admitted yet

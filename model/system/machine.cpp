@@ -28,9 +28,7 @@ AnswerTimes answer_times(const Config& config) {
   const UnitSpec& unit = config.intersection_unit;
   const Cycles hit = config.triangle_cache.hit_latency;
   const Cycles slots = (config.packet.size + unit.lanes - 1) / unit.lanes;
-  // Whatever comes next may come over a link between units or as a line from the L2.
-  return {.link = std::min(config.link.latency, config.link.memory_latency),
-          .line = 2 * config.link.memory_latency,
+  return {.line = 2 * config.link.memory_latency,
           .leaf_fixed = 2 * config.link.latency + hit,
           .leaf_test = slots * unit.initiation_interval - 1 + hit + unit.latency};
 }
@@ -38,15 +36,14 @@ AnswerTimes answer_times(const Config& config) {
 }  // namespace
 
 Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
-                 Frame& frame)
+                 Frame& frame, const RunHooks& hooks)
     : config_(config),
       plan_(plan),
       scene_(scene),
       frame_(frame),
       packets_(static_cast<int>(config.packet.size)),
-      shader_(scene.scene,
-              {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
-              &frame.layers),
+      shader_(make_shader(config, scene.scene, frame)),
+      hooks_(hooks),
       flow_(make_flow_control(config, plan, scene.scene)),
       domain_("clock_domain", period_of(config.clock.frequency)),
       links_(std::make_unique<Links>()) {
@@ -54,6 +51,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
+  flow_.declare_links();
 }
 
 Machine::~Machine() = default;
@@ -67,8 +65,10 @@ void Machine::build_memory() {
   if (config_.dram.model == DramModel::kFixed) {
     dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
   } else {
-    dram_ = std::make_unique<BankedDram>("dram", resolve_dram(config_.dram),
-                                         config_.clock.frequency, domain_);
+    auto banked = std::make_unique<BankedDram>("dram", resolve_dram(config_.dram),
+                                               config_.clock.frequency, domain_);
+    l2_->expect_answers_from(banked->agent());
+    dram_ = std::move(banked);
   }
   l2_->in_requests(*links_->caches_to_l2);
   l2_->to_dram.bind(dram_->from_cache);
@@ -91,7 +91,8 @@ void Machine::build_units() {
   const int packet_size = static_cast<int>(config_.packet.size);
   const TracedScene traced{scene_.tree, scene_.triangles, scene_.memory,
                            scheme_of(config_.traversal_scheme)};
-  const ShadedScene shaded{scene_.scene, shader_,  scene_.memory, packets_,
+  ShadingSource& shading = hooks_.shading != nullptr ? *hooks_.shading : shader_;
+  const ShadedScene shaded{scene_.scene, shading,  scene_.memory, packets_,
                            bundles_,     batches_, frame_.rays,   flow_};
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
@@ -132,6 +133,10 @@ void Machine::build_units() {
     if (plan_.texture_cache) {
       shader_units_.back()->in_texture_lines(*links_->l2_to_caches.back());
     }
+  }
+  if (plan_.shader_cache) {
+    shader_cache_ = std::make_unique<ShaderCacheUnit>("shader_cache", config_.shader_cache,
+                                                      scene_.scene, packets_, flow_, domain_);
   }
   film_ =
       std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
@@ -207,15 +212,41 @@ void Machine::connect() {
   film_->in_batches(*links.shader_to_film);
   for (auto& shader : shader_units_) {
     ShaderUnit& unit = *shader;
-    for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-      links.traversal_to_shader.push_back(std::make_unique<PacketChannel>(
-          fmt::format("traversal{}_to_{}", i, unit.name()).c_str(),
-          PacketChannel::Spec{.capacity = depth, .latency = latency}));
-      unit.in_packets(*links.traversal_to_shader.back());
-      traversal_units_[i]->out_packets(*links.traversal_to_shader.back());
-    }
     unit.out_film(*links.shader_to_film);
     if (plan_.secondary_rays) unit.out_bundles(*links.spawned_rays);
+  }
+  if (shader_cache_) {
+    connect_shader_cache();
+  } else {
+    connect_shaders();
+  }
+}
+
+void Machine::connect_shaders() {
+  for (auto& shader : shader_units_) {
+    for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+      links_->traversal_to_shader.push_back(std::make_unique<PacketChannel>(
+          fmt::format("traversal{}_to_{}", i, shader->name()).c_str(),
+          PacketChannel::Spec{.capacity = config_.link.depth, .latency = config_.link.latency}));
+      shader->in_packets(*links_->traversal_to_shader.back());
+      traversal_units_[i]->out_packets(*links_->traversal_to_shader.back());
+    }
+  }
+}
+
+void Machine::connect_shader_cache() {
+  const PacketChannel::Spec spec{.capacity = config_.link.depth, .latency = config_.link.latency};
+  for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
+    links_->traversal_to_shader_cache.push_back(std::make_unique<PacketChannel>(
+        fmt::format("traversal{}_to_shader_cache", i).c_str(), spec));
+    traversal_units_[i]->out_packets(*links_->traversal_to_shader_cache.back());
+    shader_cache_->in_packets(*links_->traversal_to_shader_cache.back());
+  }
+  for (auto& shader : shader_units_) {
+    links_->shader_cache_to_shader.push_back(std::make_unique<PacketChannel>(
+        fmt::format("shader_cache_to_{}", shader->name()).c_str(), spec));
+    shader_cache_->out_packets(*links_->shader_cache_to_shader.back());
+    shader->in_packets(*links_->shader_cache_to_shader.back());
   }
 }
 
@@ -225,7 +256,7 @@ bool Machine::run(const Monitor& monitor) {
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
-  end_ = domain_.now() + 1;
+  end_ = domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   finish_accounts(end_);
   if (domain_.ran_dry()) {
@@ -242,6 +273,7 @@ void Machine::finish_accounts(Cycles end) {
   primary_source_->finish(end);
   packet_arbiter_->finish(end);
   film_->finish(end);
+  if (shader_cache_) shader_cache_->finish(end);
   if (ray_cache_) ray_cache_->finish(end);
   if (spawn_router_) spawn_router_->finish(end);
 }
@@ -258,6 +290,7 @@ std::string Machine::describe_stuck() const {
   for (const auto& unit : traversal_units_) add(unit.get());
   for (const auto& unit : intersection_units_) add(unit.get());
   for (const auto& unit : shader_units_) add(unit.get());
+  add(shader_cache_.get());
   add(primary_source_.get());
   add(packet_arbiter_.get());
   add(ray_cache_.get());

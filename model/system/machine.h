@@ -16,11 +16,13 @@
 #include "system/build_plan.h"
 #include "system/frame.h"
 #include "system/prepared_scene.h"
+#include "system/run_hooks.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
 #include "units/ray_cache_unit.h"
+#include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
 #include "units/traversal_unit.h"
@@ -33,7 +35,8 @@ using PacketChannel = TimedChannel<RayPacket*>;
 /// bound and ready to run once. One machine a process (SystemC).
 class Machine {
  public:
-  Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame);
+  Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
+          const RunHooks& hooks = {});
   ~Machine();
 
   /// Called now and then with the share of the tiles that have been begun; returns true to stop.
@@ -54,6 +57,8 @@ class Machine {
   void build_units();
   void build_regrouper();
   void connect();
+  void connect_shaders();
+  void connect_shader_cache();
   void check_conservation() const;
   [[nodiscard]] std::string describe_stuck() const;
   void finish_accounts(Cycles end);
@@ -70,6 +75,7 @@ class Machine {
   ObjectPool<SpawnBundle> bundles_;
   ObjectPool<FilmBatch> batches_;
   PacketShader shader_;
+  const RunHooks hooks_;
   FlowControl flow_;
   ClockDomain domain_;
   std::unique_ptr<Links> links_;
@@ -80,6 +86,7 @@ class Machine {
   std::unique_ptr<PacketArbiter> packet_arbiter_;
   std::unique_ptr<RayCacheUnit> ray_cache_;
   std::unique_ptr<SpawnRouter> spawn_router_;
+  std::unique_ptr<ShaderCacheUnit> shader_cache_;
   std::unique_ptr<FilmUnit> film_;
   std::unique_ptr<L2Cache> l2_;
   std::unique_ptr<MainMemory> dram_;

@@ -18,9 +18,11 @@ struct Machine::Links {
   std::unique_ptr<PacketChannel> packet_fifo;
   std::unique_ptr<TimedChannel<ContextFree>> traversal_to_arbiter;
   Channels<RayPacket*> arbiter_to_traversal;
-  Channels<LeafJob> traversal_to_intersection;   ///< one per pair
-  Channels<LeafDone> intersection_to_traversal;  ///< one per traversal unit
-  Channels<RayPacket*> traversal_to_shader;      ///< one per pair
+  Channels<LeafJob> traversal_to_intersection;     ///< one per pair
+  Channels<LeafDone> intersection_to_traversal;    ///< one per traversal unit
+  Channels<RayPacket*> traversal_to_shader;        ///< one per pair, without a shader cache
+  Channels<RayPacket*> traversal_to_shader_cache;  ///< one per traversal unit
+  Channels<RayPacket*> shader_cache_to_shader;     ///< one per shader unit
   std::unique_ptr<TimedChannel<FilmBatch*>> shader_to_film;
   std::unique_ptr<TimedChannel<SpawnBundle*>> spawned_rays;
   std::unique_ptr<TimedChannel<LineRequest>> caches_to_l2;

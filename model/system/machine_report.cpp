@@ -64,6 +64,10 @@ void Machine::report_units(StatsTree& stats) const {
     stats.add_counters(path, shader_units_[i]->pipeline_stats());
     unit(path, *shader_units_[i]);
   }
+  if (shader_cache_) {
+    report_shading_sorter(shader_cache_->sorter(), "system.shader_cache", stats);
+    unit("system.shader_cache", *shader_cache_);
+  }
   stats.add_counters("system.film", film_->stats());
   unit("system.film", *film_);
   report_traces(primary, secondary, plan_.secondary_rays, stats);
@@ -82,6 +86,12 @@ void Machine::report_links(StatsTree& stats) const {
     link(fmt::format("system.link.{}", channel->name()), *channel);
   }
   for (const auto& channel : links_->traversal_to_shader) {
+    link(fmt::format("system.link.{}", channel->name()), *channel);
+  }
+  for (const auto& channel : links_->traversal_to_shader_cache) {
+    link(fmt::format("system.link.{}", channel->name()), *channel);
+  }
+  for (const auto& channel : links_->shader_cache_to_shader) {
     link(fmt::format("system.link.{}", channel->name()), *channel);
   }
   link("system.link.shader_to_film", *links_->shader_to_film);

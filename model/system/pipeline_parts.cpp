@@ -39,8 +39,26 @@ FlowControl make_flow_control(const Config& config, const BuildPlan& plan, const
   return {config.flow, worst, credits(config, worst)};
 }
 
+PacketShader make_shader(const Config& config, const Scene& scene, Frame& frame) {
+  return {scene,
+          {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},
+          &frame.layers};
+}
+
 TraversalScheme scheme_of(Scheme scheme) {
-  return scheme == Scheme::kSingle ? TraversalScheme::kSingle : TraversalScheme::kMasked;
+  switch (scheme) {
+    case Scheme::kSingle:
+      return TraversalScheme::kSingle;
+    case Scheme::kMasked:
+      return TraversalScheme::kMasked;
+    case Scheme::kInterval:
+      return TraversalScheme::kInterval;
+    case Scheme::kIntervalEntry:
+      return TraversalScheme::kIntervalEntry;
+    case Scheme::kOmni:
+      return TraversalScheme::kOmni;
+  }
+  return TraversalScheme::kMasked;
 }
 
 }  // namespace sheaf

@@ -4,6 +4,7 @@
 
 #include "config/config.h"
 #include "system/build_plan.h"
+#include "system/frame.h"
 #include "traversal/trace.h"
 #include "units/flow_control.h"
 
@@ -14,6 +15,9 @@ namespace sheaf {
 /// Throws Error(kUsage) if flow.credits cannot admit a single primary packet.
 [[nodiscard]] FlowControl make_flow_control(const Config& config, const BuildPlan& plan,
                                             const Scene& scene);
+
+/// Shades what the machine traces; the primary hits' layers go to the frame.
+[[nodiscard]] PacketShader make_shader(const Config& config, const Scene& scene, Frame& frame);
 
 [[nodiscard]] TraversalScheme scheme_of(Scheme scheme);
 

@@ -2,18 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "system/prepared_scene.h"
 
+#include <thread>
+
 #include "image/film.h"
 #include "kdtree/build.h"
 
 namespace sheaf {
 namespace {
 
-KdTree build_tree(const Scene& scene, const KdTreeSpec& spec) {
-  return build_kd_tree(scene.positions, scene.triangles,
-                       {.traversal_cost = spec.traversal_cost,
-                        .intersection_cost = spec.intersection_cost,
-                        .empty_bonus = spec.empty_bonus,
-                        .max_depth = static_cast<int>(spec.max_depth)});
+KdTree make_tree(const Scene& scene, const KdTreeSpec& spec, const TreeCache* trees) {
+  const KdBuildOptions options{.traversal_cost = spec.traversal_cost,
+                               .intersection_cost = spec.intersection_cost,
+                               .empty_bonus = spec.empty_bonus,
+                               .max_depth = static_cast<int>(spec.max_depth),
+                               .threads = std::thread::hardware_concurrency()};
+  if (trees != nullptr) return trees->get(scene.positions, scene.triangles, options);
+  return build_kd_tree(scene.positions, scene.triangles, options);
 }
 
 std::vector<TriangleRecord> make_records(const Scene& scene) {
@@ -43,9 +47,9 @@ MemoryMap map_memory(const Scene& scene, const KdTree& tree, const Config& confi
 
 }  // namespace
 
-PreparedScene::PreparedScene(Scene&& loaded, const Config& config)
+PreparedScene::PreparedScene(Scene&& loaded, const Config& config, const TreeCache* trees)
     : scene(std::move(loaded)),
-      tree(build_tree(scene, config.kdtree)),
+      tree(make_tree(scene, config.kdtree, trees)),
       triangles(make_records(scene)),
       memory(map_memory(scene, tree, config)) {}
 

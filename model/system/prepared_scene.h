@@ -5,6 +5,7 @@
 #include "config/config.h"
 #include "kdtree/kd_tree.h"
 #include "kdtree/memory_map.h"
+#include "kdtree/tree_cache.h"
 #include "scene/scene.h"
 #include "traversal/trace.h"
 
@@ -12,7 +13,8 @@ namespace sheaf {
 
 /// A scene with everything that is made of it once, before time begins.
 struct PreparedScene {
-  PreparedScene(Scene&& loaded, const Config& config);
+  /// `trees`: where the kd-tree may stand already; may be null.
+  PreparedScene(Scene&& loaded, const Config& config, const TreeCache* trees = nullptr);
 
   Scene scene;
   KdTree tree;

@@ -47,6 +47,19 @@ void report_sorter(const RaySorter& sorter, const std::string& path, StatsTree& 
                 "Rays in a packet that left the ray cache");
 }
 
+void report_shading_sorter(const ShadingSorter& sorter, const std::string& path, StatsTree& stats) {
+  const ShaderCacheStats& counters = sorter.stats();
+  stats.add_counters(path, counters);
+  stats.add_ratio(path + ".hit_rate", counters.num_hits, counters.num_insertions, "1",
+                  "Rays that met an open cell, per ray");
+  stats.add_ratio(path + ".rays_per_material_in", counters.num_insertions,
+                  counters.sum_materials_in, "rays",
+                  "Rays to be shaded per material of a packet, before sorting");
+  stats.add_ratio(path + ".rays_per_material_out", counters.num_insertions,
+                  counters.sum_materials_out, "rays",
+                  "Rays to be shaded per material of a packet, after sorting");
+}
+
 void report_traces(const TraceCounts& primary, const TraceCounts& secondary, bool has_secondary,
                    StatsTree& stats) {
   report_trace("trace.primary", primary, stats);
@@ -98,6 +111,8 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"system.packet_arbiter", "Choice of the next packet", ArbiterStats::infos()},
       CounterGroup{"system.ray_cache", "Left out for the heuristic none", RayCacheStats::infos()},
       CounterGroup{"system.spawn_router", "Only for the heuristic none", SpawnRouterStats::infos()},
+      CounterGroup{"system.shader_cache", "Only with shader_cache.cells",
+                   ShaderCacheStats::infos()},
       CounterGroup{"system.<unit><n>", "Traversal, intersection and shader units",
                    PipelineStats::infos()},
       CounterGroup{"system.<unit>", "Every unit: what each cycle went to", kStallInfos},

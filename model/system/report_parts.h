@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sorting/ray_sorter.h"
+#include "sorting/shading_sorter.h"
 #include "stats/counter_group.h"
 #include "stats/report_tree.h"
 #include "system/build_plan.h"
@@ -19,6 +20,9 @@ namespace sheaf {
 
 /// Ray cache: counters, ratios, how full packets left.
 void report_sorter(const RaySorter& sorter, const std::string& path, StatsTree& stats);
+
+/// Shader cache: counters and ratios.
+void report_shading_sorter(const ShadingSorter& sorter, const std::string& path, StatsTree& stats);
 
 /// Packet and lane counts, p_t and p_i, of primary and, if there are any, of secondary rays.
 void report_traces(const TraceCounts& primary, const TraceCounts& secondary, bool has_secondary,

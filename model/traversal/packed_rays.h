@@ -29,7 +29,7 @@ struct alignas(64) PackedRays {
   std::array<LaneMask, 3> longest;                  ///< by axis: the lanes whose z it is
 
   // Results. A hit must have t below `limit`, or equal to it and a lower primitive number.
-  Lanes<float> limit;  ///< -infinity once a lane needs no more hits
+  alignas(64) Lanes<float> limit;  ///< -infinity once a lane needs no more hits
   Lanes<float> hit_t;
   Lanes<float> hit_u;
   Lanes<float> hit_v;

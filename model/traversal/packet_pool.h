@@ -27,6 +27,7 @@ class PacketPool {
   }
   void release(RayPacket* packet) { free_.push_back(packet); }
 
+  [[nodiscard]] int packet_size() const { return packet_size_; }
   [[nodiscard]] std::size_t num_out() const { return all_.size() - free_.size(); }
   [[nodiscard]] std::size_t num_made() const { return all_.size(); }
 

@@ -36,6 +36,23 @@ class Recorder {
     counts_.packet_triangle_tests += num_tests;
     log(node, num_tests);
   }
+  /// The same of a leaf to whose box the rays were clipped.
+  void leaf_clipped(std::uint32_t node, std::uint32_t num_tests) {
+    ++counts_.leaf_clips;
+    counts_.packet_triangle_tests += num_tests;
+    if constexpr (kRecord) {
+      if (log_ != nullptr) log_->push_back({node, num_tests, 1});
+    }
+  }
+  /// A node visited to find an entry point.
+  void search_inner(std::uint32_t node, LaneMask lanes) {
+    ++counts_.search_visits;
+    inner(node, lanes);
+  }
+  void search_leaf(std::uint32_t node) {
+    leaf(0);
+    leaf_done(node, 0);
+  }
   /// What one lane touched alone, by numbers.
   void lane_walked(std::size_t lane, std::uint32_t inner, std::uint32_t leaves,
                    std::uint32_t triangles) {
@@ -53,7 +70,7 @@ class Recorder {
   }
   void log(std::uint32_t node, std::uint32_t num_tests) {
     if constexpr (kRecord) {
-      if (log_ != nullptr) log_->push_back({node, num_tests});
+      if (log_ != nullptr) log_->push_back({node, num_tests, 0});
     }
   }
   [[nodiscard]] const TraceCounts& counts() const { return counts_; }

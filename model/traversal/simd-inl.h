@@ -56,6 +56,12 @@ HWY_INLINE LaneMask group_bits(LaneMask lanes, std::size_t group) {
   return (lanes >> (group * kGroupLanes)) & kGroupMask;
 }
 
+/// Whether a group of `kGroups` has none of the lanes; a group alone always has one.
+template <std::size_t kGroups>
+HWY_INLINE bool skip(LaneMask lanes, std::size_t group) {
+  return kGroups > 1 && group_bits(lanes, group) == 0;
+}
+
 /// The lesser or greater of two numbers; `b` where `a` is NaN. `b` is never NaN.
 HWY_INLINE FloatVec min_unless_nan(FloatVec a, FloatVec b) {
   return hn::Min(a, b);

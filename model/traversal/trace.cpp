@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "traversal/interval-inl.h"
 #include "traversal/masked-inl.h"
 #include "traversal/ray_setup-inl.h"
 #include "traversal/recorder.h"
@@ -73,30 +74,74 @@ HWY_INLINE std::size_t pack_by_sign(const RayPacket& packet, Packer& packer,
   return count;
 }
 
+/// All rays as one pass, whatever their signs.
+HWY_INLINE std::size_t pack_all(const RayPacket& packet, Packer& packer,
+                                std::array<Pass, 8>& passes) {
+  passes[0] = {packer.put(packet.active), 0};
+  return 1;
+}
+
+// Apart from masked traversal, whose speed matters most, so that they do not weigh on its frame.
+template <std::size_t kGroups, class Recorder>
+HWY_NOINLINE void walk_omni(const KdTree& tree, const TriangleRecord* triangles, PackedRays& rays,
+                            const Pass& pass, Recorder& recorder) {
+  MaskedCursor<kGroups, true>(tree, triangles, rays, pass.members, pass.sign).walk(recorder);
+}
+// One number of vectors for all: the walk is in scalars, and leaves skip vectors without a ray.
+template <class Recorder>
+HWY_NOINLINE void walk_interval(const KdTree& tree, const TriangleRecord* triangles,
+                                PackedRays& rays, const Pass& pass, bool from_entry,
+                                Recorder& recorder) {
+  constexpr std::size_t kMostGroups = kMaxPacketSize / kGroupLanes;
+  IntervalCursor<kMostGroups> cursor(tree, triangles, rays, pass.members, pass.sign);
+  if (from_entry) {
+    cursor.walk_from_entry(recorder);
+  } else {
+    cursor.walk(recorder);
+  }
+}
+
+/// One pass, in `kGroups` vectors.
+template <std::size_t kGroups, class Recorder>
+HWY_INLINE void walk_pass_in(TraversalScheme scheme, const KdTree& tree,
+                             const TriangleRecord* triangles, PackedRays& rays, const Pass& pass,
+                             Recorder& recorder) {
+  if (scheme == TraversalScheme::kMasked) {
+    MaskedCursor<kGroups, false>(tree, triangles, rays, pass.members, pass.sign).walk(recorder);
+  } else if (scheme == TraversalScheme::kOmni) {
+    walk_omni<kGroups>(tree, triangles, rays, pass, recorder);
+  } else {
+    const bool from_entry = scheme == TraversalScheme::kIntervalEntry;
+    walk_interval(tree, triangles, rays, pass, from_entry, recorder);
+  }
+}
+
 /// Walks with the fewest vectors that hold the rays, of the numbers of vectors compiled.
 template <std::size_t kGroups, class Recorder>
-HWY_INLINE void walk_masked(const KdTree& tree, const TriangleRecord* triangles, PackedRays& rays,
-                            const Pass& pass, Recorder& recorder) {
+HWY_INLINE void walk_pass(TraversalScheme scheme, const KdTree& tree,
+                          const TriangleRecord* triangles, PackedRays& rays, const Pass& pass,
+                          Recorder& recorder) {
   if constexpr (kGroups * kGroupLanes < kMaxPacketSize) {
     if (static_cast<std::size_t>(rays.count) > kGroups * kGroupLanes) {
       constexpr std::size_t kMore = kGroupLanes * kGroups == 4 ? 4 : 2;
-      walk_masked<kMore * kGroups>(tree, triangles, rays, pass, recorder);
+      walk_pass<kMore * kGroups>(scheme, tree, triangles, rays, pass, recorder);
       return;
     }
   }
-  MaskedCursor<kGroups>(tree, triangles, rays, pass.members, pass.sign).walk(recorder);
+  walk_pass_in<kGroups>(scheme, tree, triangles, rays, pass, recorder);
 }
 
+/// Walks a packet and leaves what it found in `rays`.
 template <bool kRecord>
-void trace(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,
-           RayPacket& packet, TraceLog* log, LaneCounts* lanes, TraceCounts& counts) {
+HWY_INLINE TraceCounts walk_packet(TraversalScheme scheme, const KdTree& tree,
+                                   const TriangleRecord* triangles, const RayPacket& packet,
+                                   PackedRays& rays, TraceLog* log, LaneCounts* lanes) {
   RawRays raw;
-  PackedRays rays;
   std::array<Pass, 8> passes;
   std::size_t num_passes = 0;
   Packer packer(packet, raw, rays);
-  if (scheme == TraversalScheme::kSingle) {
-    packer.put(packet.active);
+  if (scheme == TraversalScheme::kSingle || scheme == TraversalScheme::kOmni) {
+    num_passes = pack_all(packet, packer, passes);
   } else {
     num_passes = pack_by_sign(packet, packer, passes);
   }
@@ -104,18 +149,42 @@ void trace(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* tri
   set_up_rays(raw, tree.bounds, rays);
 
   Recorder<kRecord> recorder(log, lanes, rays);
+  TraceCounts counts;
   if (scheme == TraversalScheme::kSingle) {
     walk_single(tree, triangles, rays, recorder);
-    counts.passes += static_cast<std::uint64_t>(rays.count);
+    counts.passes = static_cast<std::uint64_t>(rays.count);
   } else {
     constexpr std::size_t kLeastGroups = kGroupLanes == 1 ? kMaxPacketSize : 1;
     for (std::size_t i = 0; i < num_passes; ++i) {
-      walk_masked<kLeastGroups>(tree, triangles, rays, passes[i], recorder);
+      walk_pass<kLeastGroups>(scheme, tree, triangles, rays, passes[i], recorder);
     }
-    counts.passes += num_passes;
+    counts.passes = num_passes;
+  }
+  counts += recorder.counts();
+  return counts;
+}
+
+/// Replaces what the lanes took part in by what each would do alone.
+HWY_NOINLINE void count_alone(const KdTree& tree, const TriangleRecord* triangles,
+                              const RayPacket& packet, TraceCounts& counts) {
+  PackedRays rays;
+  const TraceCounts alone =
+      walk_packet<false>(TraversalScheme::kMasked, tree, triangles, packet, rays, nullptr, nullptr);
+  counts.lane_inner_visits = alone.lane_inner_visits;
+  counts.lane_leaf_visits = alone.lane_leaf_visits;
+  counts.lane_triangle_tests = alone.lane_triangle_tests;
+}
+
+template <bool kRecord>
+void trace(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,
+           RayPacket& packet, TraceLog* log, LaneCounts* lanes, TraceCounts& counts) {
+  PackedRays rays;
+  TraceCounts found = walk_packet<kRecord>(scheme, tree, triangles, packet, rays, log, lanes);
+  if (scheme != TraversalScheme::kSingle && scheme != TraversalScheme::kMasked) {
+    count_alone(tree, triangles, packet, found);
   }
   unpack(rays, packet);
-  counts += recorder.counts();
+  counts += found;
 }
 
 void trace_counted(TraversalScheme scheme, const KdTree& tree, const TriangleRecord* triangles,

@@ -27,6 +27,7 @@ FilmUnit::FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, 
 void FilmUnit::end_of_elaboration() {
   in_batches->set_consumer(inbox_);
   in_lines->set_consumer(inbox_);
+  cache_.bind(inbox_);
 }
 
 Cycles FilmUnit::wake(Cycles now) {
@@ -38,6 +39,7 @@ Cycles FilmUnit::wake(Cycles now) {
 }
 
 Cycles FilmUnit::act(Cycles now) {
+  domain_.happened(now);
   accept_lines(now);
   if (batch_ == nullptr && in_batches->has_arrived(now)) {
     batch_ = in_batches->read(now);

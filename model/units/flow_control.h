@@ -45,7 +45,22 @@ class FlowControl {
 
   void bind_source(Inbox& inbox) { source_ = &inbox; }
   void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }
+  void bind_shader_cache(Inbox& inbox) { shader_cache_ = &inbox; }
   void bind_film(Inbox& inbox) { film_ = &inbox; }
+  void bind_shader(const Inbox& inbox) { shaders_.push_back(inbox.agent()); }
+  /// Tells the clock domain who is woken by whose changes, once all have been bound.
+  void declare_links() const {
+    for (const Inbox* woken : {source_, regrouper_, shader_cache_, film_}) {
+      if (woken == nullptr) continue;
+      for (const std::size_t shader : shaders_) {
+        woken->domain().declare_link(shader, woken->agent(), kNotice);
+      }
+      woken->domain().declare_link(source_->agent(), woken->agent(), kNotice);
+    }
+    if (shader_cache_ != nullptr && regrouper_ != nullptr) {
+      shader_cache_->domain().declare_link(regrouper_->agent(), shader_cache_->agent(), kNotice);
+    }
+  }
 
   [[nodiscard]] bool by_tile() const { return by_tile_; }
   [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
@@ -67,6 +82,7 @@ class FlowControl {
     if (is_quiet()) {
       nudge(source_, now);
       nudge(regrouper_, now);
+      nudge(shader_cache_, now);
     } else if (!by_tile_) {
       nudge(source_, now);
     }
@@ -74,15 +90,22 @@ class FlowControl {
   }
 
   /// Rays in the cells of the ray cache, which move only when others arrive or a sweep comes.
-  void set_waiting(std::uint64_t waiting) { waiting_ = waiting; }
+  void set_waiting(std::uint64_t waiting, Cycles now) {
+    waiting_ = waiting;
+    if (waiting_for_shader_ != 0 && is_quiet()) nudge(shader_cache_, now);
+  }
+  /// The same in the cells of the shader cache, which are swept before those of the ray cache.
+  void set_waiting_for_shader(std::uint64_t waiting) { waiting_for_shader_ = waiting; }
+  [[nodiscard]] bool waits_for_shader() const { return waiting_for_shader_ != 0; }
   /// Nothing moves: every ray in the loop waits in a cell.
-  [[nodiscard]] bool is_quiet() const { return live_ == waiting_; }
+  [[nodiscard]] bool is_quiet() const { return live_ == waiting_ + waiting_for_shader_; }
 
   enum class Source : std::uint8_t { kIssuing, kTileIssued, kNoCredit, kExhausted };
   void set_source(Source state, Cycles now) {
     source_state_ = state;
     if (state != Source::kIssuing && is_quiet()) {
       nudge(regrouper_, now);
+      nudge(shader_cache_, now);
       if (live_ == 0 && state == Source::kExhausted) nudge(film_, now);
     }
   }
@@ -92,8 +115,9 @@ class FlowControl {
   [[nodiscard]] bool finished() const { return live_ == 0 && source_state_ == Source::kExhausted; }
 
  private:
+  static constexpr Cycles kNotice = 1;  ///< from a change to the wake-up of who waits for it
   static void nudge(Inbox* inbox, Cycles now) {
-    if (inbox != nullptr) inbox->nudge(now + 1);
+    if (inbox != nullptr) inbox->nudge(now + kNotice);
   }
 
   const WorstCase worst_case_;
@@ -101,12 +125,15 @@ class FlowControl {
   const bool by_tile_;
   std::uint64_t live_ = 0;
   std::uint64_t waiting_ = 0;
+  std::uint64_t waiting_for_shader_ = 0;
   std::uint64_t reserved_ = 0;
   std::uint64_t max_live_ = 0;
   Source source_state_ = Source::kIssuing;
   Inbox* source_ = nullptr;
   Inbox* regrouper_ = nullptr;
+  Inbox* shader_cache_ = nullptr;
   Inbox* film_ = nullptr;
+  std::vector<std::size_t> shaders_;
 };
 
 }  // namespace sheaf

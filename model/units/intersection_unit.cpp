@@ -24,6 +24,13 @@ IntersectionUnit::IntersectionUnit(const sc_core::sc_module_name& name, const Un
 void IntersectionUnit::end_of_elaboration() {
   jobs_.bind(in_jobs, inbox_);
   in_lines->set_consumer(inbox_);
+  for (int i = 0; i < out_done.size(); ++i) out_done[i]->add_producer(inbox_);
+  cache_.bind(inbox_);
+}
+
+void IntersectionUnit::start_of_simulation() {
+  jobs_ahead_.bind(domain_, jobs_.producers(), inbox_.agent());
+  lines_ahead_.bind(domain_, in_lines->producers(), inbox_.agent());
 }
 
 Cycles IntersectionUnit::accept_inputs(Cycles now) {
@@ -42,10 +49,9 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
 }
 
 // A job matters only while there is a context for it.
-Cycles IntersectionUnit::earliest_input(Cycles others) const {
-  const Cycles message = others == kNever ? kNever : others + times_.link;
-  if (has_free_context()) return message;
-  return std::max(message, earliest_answer());
+Cycles IntersectionUnit::earliest_input() {
+  const Cycles job = has_free_context() ? jobs_ahead_.earliest() : kNever;
+  return std::min(job, earliest_answer(parked(), lines_ahead_));
 }
 
 void IntersectionUnit::ready(int number, Cycles now) {
@@ -70,6 +76,30 @@ void IntersectionUnit::ready(int number, Cycles now) {
       inbox_.set_next(std::min(inbox_.next(), std::max(jobs_.next_arrival(), now + 1)));
       return;
   }
+}
+
+IntersectionUnit::QuickStep IntersectionUnit::step_if_hit(int number) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  const bool after_test = context.phase == Phase::kTriangleIssued;
+  if (!after_test && context.phase != Phase::kListIssued) return {};
+  const std::uint32_t position = context.tested + (after_test ? 1 : 0);
+  if (position == context.job.num_tests) return {};
+  const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
+  const Address address = scene_.memory.triangle(scene_.tree.leaf_triangles[first + position]);
+  const std::uint64_t first_line = cache_.line_of(address);
+  const std::uint64_t last_line = cache_.line_of(address + MemoryMap::kTriangleSize - 1);
+  for (std::uint64_t line = first_line + 1; line <= last_line; ++line) {
+    if (!cache_.holds(line)) return {};
+  }
+  if (!cache_.read_if_hit(first_line, DataKind::kTriangle)) return {};
+  for (std::uint64_t line = first_line + 1; line <= last_line; ++line) {
+    cache_.read_if_hit(line, DataKind::kTriangle);
+  }
+  context.tested = position;
+  context.phase = Phase::kTriangleIssued;
+  const Cycles lookups = last_line - first_line + 1;
+  return {true, std::max(slots_per_step_ * spec_.initiation_interval, lookups),
+          cache_.hit_latency() + spec_.latency};
 }
 
 bool IntersectionUnit::fetch(int number, Address first, Bytes bytes, DataKind kind,

@@ -15,8 +15,11 @@ template <typename T>
 class RoundRobin {
  public:
   template <typename Port>
-  void bind(Port& port) {
-    for (int i = 0; i < port.size(); ++i) links_.push_back(port[i]);
+  void bind(Port& port, const Inbox& producer) {
+    for (int i = 0; i < port.size(); ++i) {
+      port[i]->add_producer(producer);
+      links_.push_back(port[i]);
+    }
   }
   /// kNo: all links are full; `producer` is then woken when one of them is not. kUnknown: one seems
   /// full, and it is not `certain` that it is; nothing has happened.
@@ -50,6 +53,14 @@ class MergedInput {
       port[i]->set_consumer(consumer);
       links_.push_back({port[i], &port[i]->next_arrival()});
     }
+  }
+  /// The agents at the other ends.
+  [[nodiscard]] std::vector<std::size_t> producers() const {
+    std::vector<std::size_t> all;
+    for (const Link& link : links_) {
+      all.insert(all.end(), link.in->producers().begin(), link.in->producers().end());
+    }
+    return all;
   }
   [[nodiscard]] Cycles next_arrival() const {
     Cycles next = kNever;

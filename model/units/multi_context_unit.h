@@ -10,11 +10,11 @@
 
 #include "channels/clock_domain.h"
 #include "channels/timed_channel.h"
-#include "channels/timing_wheel.h"
 #include "config/config.h"
 #include "memory/private_cache.h"
 #include "stats/counters.h"
 #include "stats/stall_account.h"
+#include "units/context_queue.h"
 
 namespace sheaf {
 
@@ -36,11 +36,13 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 /// look-up of the lines it had.
 ///
 /// A unit runs ahead of all others up to the earliest cycle at which an input can reach it
-/// (earliest_input), which it knows from what it has asked for. All it writes carries its own time.
+/// (earliest_input), which it knows from what it has asked for and from when those it has asked act
+/// next. All it writes carries its own time.
 ///
 /// Derived provides: accept_inputs(now), ready(context, now) for a context whose time has come,
-/// issue(context, now) and earliest_input(others), where no other agent acts before `others`; it
-/// calls the protected members below.
+/// issue(context, now), earliest_input(), and step_if_hit(context), which does what ready() and
+/// issue() would do for a context whose step is done and whose next one finds all its lines, and
+/// nothing in any other case; it calls the protected members below.
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
@@ -53,10 +55,11 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
       resumes_ = held_back_;
       held_back_ = false;
       if (resumes_) return now;
-      Cycles next = wheel_.peek();
-      if (inbox_.next() < next) next = inbox_.next();
-      if (num_ready_ != 0 && port_free_ < next) next = port_free_;
-      if (next >= safe_until()) return next;
+      const Cycles until = safe_until();
+      step_quickly(std::min(until, inbox_.next()));
+      Cycles next = std::min(agenda_.next(), inbox_.next());
+      if (!ready_.is_empty()) next = std::min(next, port_free_);
+      if (next >= until) return next;
       now = next;
     }
   }
@@ -70,6 +73,13 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   [[nodiscard]] int num_held() const { return std::popcount(held_); }
 
  protected:
+  /// What step_if_hit() gives.
+  struct QuickStep {
+    bool taken = false;
+    Cycles port_cycles = 0;
+    Cycles latency = 0;
+  };
+
   MultiContextUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
                    ClockDomain& domain)
       : sc_module(name),
@@ -95,14 +105,9 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   }
 
   /// ready(context) will be called at `time`.
-  void schedule(int context, Cycles time) {
-    wheel_.schedule(static_cast<std::size_t>(context), time);
-  }
+  void schedule(int context, Cycles time) { agenda_.insert(context, time); }
   /// Joins the queue for the issue port.
-  void enqueue(int context) {
-    ready_queue_[(first_ready_ + num_ready_++) % ready_queue_.size()] =
-        static_cast<std::uint8_t>(context);
-  }
+  void enqueue(int context) { ready_.push(context); }
   /// Occupies the port for a whole step and schedules the context for when it is done.
   /// `hit_latency`: of the lines it fetched, 0 if none; `port_cycles`: cycles that these accesses
   /// need of the cache port, if more than its slots.
@@ -132,16 +137,22 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     schedule(context, now);
   }
 
-  // Contexts that wait for an answer of another unit or of memory, which cannot come before
-  // `earliest`.
+  // Contexts that wait for an answer of another unit, which cannot come before `earliest`.
   void await(int context, Cycles earliest) {
+    awaiting_ |= std::uint64_t{1} << context;
     awaited_[static_cast<std::size_t>(context)] = earliest;
   }
-  void answered(int context) { awaited_[static_cast<std::size_t>(context)] = kNever; }
-  [[nodiscard]] Cycles earliest_answer() const {
+  void answered(int context) { awaiting_ &= ~(std::uint64_t{1} << context); }
+  [[nodiscard]] std::uint64_t awaiting() const { return awaiting_; }
+  /// The earliest answer that one of these contexts, or line that one of these parked ones, can get
+  /// over links of this lookahead.
+  [[nodiscard]] Cycles earliest_answer(std::uint64_t contexts, const Lookahead& links) const {
+    if (contexts == 0) return kNever;
     Cycles earliest = kNever;
-    for (std::uint32_t i = 0; i < spec_.contexts; ++i) earliest = std::min(earliest, awaited_[i]);
-    return earliest;
+    for (std::uint64_t left = contexts; left != 0; left &= left - 1) {
+      earliest = std::min(earliest, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
+    }
+    return std::max(earliest, links.earliest());
   }
 
   // Contexts that a full channel holds up.
@@ -151,11 +162,10 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   // Contexts whose step waits for lines.
   void park(int context, Cycles earliest_line) {
     parked_ |= std::uint64_t{1} << context;
-    await(context, earliest_line);
+    awaited_[static_cast<std::size_t>(context)] = earliest_line;
   }
   void unpark(int context, Cycles now) {
     parked_ &= ~(std::uint64_t{1} << context);
-    answered(context);
     ++pipeline_stats_.num_reissues;
     schedule(context, now);
   }
@@ -169,34 +179,43 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   [[nodiscard]] Cycles safe_until() {
     const Cycles others = domain_.horizon();
     // A blocked context may be let go at any time.
-    if (blocked_ != 0 || others == 0 || domain_.in_step()) return others;
-    const Cycles input = static_cast<Derived&>(*this).earliest_input(others);
-    return std::min(std::max(others, input), domain_.end());
+    if (blocked_ != 0 || domain_.in_step()) return others;
+    const Cycles input = static_cast<Derived&>(*this).earliest_input();
+    return std::min({std::max(others, input), domain_.limit(), domain_.end()});
+  }
+
+  // The common case, in few words: contexts whose step is done and whose next one finds its lines,
+  // one after the other, until anything else is due. Port and cache see them in the order in which
+  // act() would show them.
+  void step_quickly(Cycles until) {
+    if (!ready_.is_empty() || blocked_ != 0) return;
+    auto& self = static_cast<Derived&>(*this);
+    while (agenda_.next() < until) {
+      const Cycles due = agenda_.next();
+      const Cycles now = std::max(due, port_free_);
+      if (now >= until) return;
+      const QuickStep step = self.step_if_hit(agenda_.first());
+      if (!step.taken) return;
+      account(due);
+      occupy_for(agenda_.pop(), step.port_cycles, step.latency, now);
+      latest_ = due - 1;  // another context may be due with it
+      domain_.happened(now);
+    }
   }
 
   void act(Cycles now) {
     account(now);
+    domain_.happened(now);
     auto& self = static_cast<Derived&>(*this);
     if (inbox_.next() <= now) inbox_.set_next(self.accept_inputs(now));
     for (std::uint64_t left = blocked_; left != 0; left &= left - 1) {
       self.ready(std::countr_zero(left), now);
     }
-    while (wheel_.peek() == now) {
-      self.ready(static_cast<int>(wheel_.pop(now)), now);
+    while (agenda_.next() == now) {
+      self.ready(agenda_.pop(), now);
       if (held_back_) return;  // the rest of this cycle waits with it
     }
-    if (num_ready_ != 0 && port_free_ <= now) {
-      const int context = ready_queue_[first_ready_];
-      first_ready_ = (first_ready_ + 1) % ready_queue_.size();
-      --num_ready_;
-      self.issue(context, now);
-    }
-  }
-
-  static constexpr std::array<Cycles, 64> never_awaited() {
-    std::array<Cycles, 64> awaited{};
-    awaited.fill(kNever);
-    return awaited;
+    if (!ready_.is_empty() && port_free_ <= now) self.issue(ready_.pop(), now);
   }
 
   void occupy_for(int context, Cycles taken, Cycles latency, Cycles now) {
@@ -222,15 +241,14 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     return held_ != 0 ? StallCause::kWaitingInput : StallCause::kIdle;
   }
 
-  TimingWheel wheel_;
-  std::array<std::uint8_t, 64> ready_queue_{};
-  std::size_t first_ready_ = 0;
-  std::size_t num_ready_ = 0;
+  ContextAgenda agenda_;
+  ReadyQueue ready_;
   std::uint64_t free_ = 0;
   std::uint64_t held_ = 0;
   std::uint64_t blocked_ = 0;
   std::uint64_t parked_ = 0;
-  std::array<Cycles, 64> awaited_ = never_awaited();
+  std::uint64_t awaiting_ = 0;
+  std::array<Cycles, 64> awaited_{};  ///< of contexts in awaiting_ or parked_
   bool held_back_ = false;
   bool resumes_ = false;  ///< goes on with the cycle in which it was held back
   Cycles latest_ = 0;     ///< everything up to this cycle has been done

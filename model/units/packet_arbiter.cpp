@@ -26,6 +26,7 @@ PacketArbiter::PacketArbiter(const sc_core::sc_module_name& name, const ArbiterS
 void PacketArbiter::end_of_elaboration() {
   in_primary->set_consumer(inbox_);
   in_free->set_consumer(inbox_);
+  for (int i = 0; i < out_packets.size(); ++i) out_packets[i]->add_producer(inbox_);
   if (in_secondary.size() != 0) {
     secondary_ = in_secondary[0];
     secondary_->set_consumer(inbox_);
@@ -41,6 +42,7 @@ Cycles PacketArbiter::wake(Cycles now) {
 }
 
 Cycles PacketArbiter::act(Cycles now) {
+  domain_.happened(now);
   while (in_free->has_arrived(now)) ++free_contexts_[in_free->read(now).unit];
   const bool has_primary = in_primary->has_arrived(now);
   const bool has_secondary = secondary_ != nullptr && secondary_->has_arrived(now);

@@ -41,6 +41,10 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
   domain.schedule(agent, 0);
 }
 
+void PrimarySource::end_of_elaboration() {
+  out_packets->add_producer(inbox_);
+}
+
 Cycles PrimarySource::wake(Cycles now) {
   for (;;) {
     const Cycles next = act(now);
@@ -83,6 +87,7 @@ bool PrimarySource::prepare_packet(Cycles now) {
 }
 
 Cycles PrimarySource::act(Cycles now) {
+  domain_.happened(now);
   if (now < next_packet_) return next_packet_;
   if (!prepare_packet(now)) {
     stalls_.switch_to(flow_.source() == FlowControl::Source::kExhausted ? StallCause::kIdle

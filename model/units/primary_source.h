@@ -49,6 +49,7 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
   }
 
  private:
+  void end_of_elaboration() override;
   Cycles act(Cycles now);
   bool prepare_packet(Cycles now);
 

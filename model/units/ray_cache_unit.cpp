@@ -25,6 +25,7 @@ RayCacheUnit::RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSp
 
 void RayCacheUnit::end_of_elaboration() {
   in_bundles->set_consumer(inbox_);
+  out_packets->add_producer(inbox_);
 }
 
 Cycles RayCacheUnit::wake(Cycles now) {
@@ -36,12 +37,13 @@ Cycles RayCacheUnit::wake(Cycles now) {
 }
 
 Cycles RayCacheUnit::act(Cycles now) {
+  domain_.happened(now);
   if (!send_departures(now)) {
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return kNever;  // woken when the FIFO has room
   }
   const bool worked = time_out(now) || insert_rays(now) || sweep(now);
-  flow_.set_waiting(sorter_->num_waiting());
+  flow_.set_waiting(sorter_->num_waiting(), now);
   if (worked) {
     stalls_.switch_to(StallCause::kBusy, now);
     return now + 1;
@@ -98,8 +100,8 @@ Cycles RayCacheUnit::next_time_out() const {
 }
 
 bool RayCacheUnit::sweep(Cycles now) {
-  flow_.set_waiting(sorter_->num_waiting());
-  if (sorter_->num_waiting() == 0 || !flow_.is_quiet()) return false;
+  flow_.set_waiting(sorter_->num_waiting(), now);
+  if (sorter_->num_waiting() == 0 || !flow_.is_quiet() || flow_.waits_for_shader()) return false;
   if (flow_.source() == FlowControl::Source::kIssuing) return false;
   sorter_->sweep(sweep_reason(), now, departures_);
   return true;

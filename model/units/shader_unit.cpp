@@ -22,6 +22,7 @@ ShaderUnit::ShaderUnit(const sc_core::sc_module_name& name, const UnitSpec& spec
       attributes_(attribute_cache, memory, attribute_requester),
       attribute_fetcher_(attributes_),
       contexts_(spec.contexts) {
+  scene.flow.bind_shader(inbox_);
   if (texture_cache != nullptr) {
     textures_.emplace(*texture_cache, memory, texture_requester);
     texture_fetcher_.emplace(*textures_);
@@ -32,6 +33,10 @@ void ShaderUnit::end_of_elaboration() {
   packets_.bind(in_packets, inbox_);
   in_attribute_lines->set_consumer(inbox_);
   if (textures_) in_texture_lines->set_consumer(inbox_);
+  attributes_.bind(inbox_);
+  if (textures_) textures_->bind(inbox_);
+  out_film->add_producer(inbox_);
+  if (out_bundles.size() != 0) out_bundles->add_producer(inbox_);
 }
 
 Cycles ShaderUnit::accept_inputs(Cycles now) {

@@ -23,7 +23,7 @@ using FilmBatch = std::vector<PixelContribution>;
 /// What the shader units share.
 struct ShadedScene {
   const Scene& scene;
-  const PacketShader& shader;
+  ShadingSource& shader;
   const MemoryMap& memory;
   PacketPool& packets;
   ObjectPool<SpawnBundle>& bundles;
@@ -78,7 +78,9 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   void ready(int context, Cycles now);
   void issue(int context, Cycles now);
   // Never runs ahead: it changes what flow control counts.
-  [[nodiscard]] static Cycles earliest_input(Cycles others) { return others; }
+  [[nodiscard]] static Cycles earliest_input() { return 0; }
+  // Its steps are few and seldom find all their lines.
+  static QuickStep step_if_hit(int /*context*/) { return {}; }
   void begin_phase(int number, Phase phase);
   void list_lines(Context& context);
   void prepare_output(Context& context);

@@ -21,6 +21,7 @@ SpawnRouter::SpawnRouter(const sc_core::sc_module_name& name, PacketPool& packet
 
 void SpawnRouter::end_of_elaboration() {
   in_bundles->set_consumer(inbox_);
+  out_packets->add_producer(inbox_);
 }
 
 Cycles SpawnRouter::wake(Cycles now) {
@@ -32,6 +33,7 @@ Cycles SpawnRouter::wake(Cycles now) {
 }
 
 Cycles SpawnRouter::act(Cycles now) {
+  domain_.happened(now);
   if (waiting_.empty()) {
     if (!in_bundles->has_arrived(now)) {
       stalls_.switch_to(StallCause::kIdle, now);

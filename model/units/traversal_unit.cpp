@@ -40,8 +40,16 @@ void TraversalUnit::end_of_elaboration() {
   in_packets->set_consumer(inbox_);
   in_done->set_consumer(inbox_);
   in_lines->set_consumer(inbox_);
-  jobs_.bind(out_jobs);
-  packets_.bind(out_packets);
+  jobs_.bind(out_jobs, inbox_);
+  packets_.bind(out_packets, inbox_);
+  out_free->add_producer(inbox_);
+  cache_.bind(inbox_);
+}
+
+void TraversalUnit::start_of_simulation() {
+  packets_ahead_.bind(domain_, in_packets->producers(), inbox_.agent());
+  answers_ahead_.bind(domain_, in_done->producers(), inbox_.agent());
+  lines_ahead_.bind(domain_, in_lines->producers(), inbox_.agent());
 }
 
 Cycles TraversalUnit::accept_inputs(Cycles now) {
@@ -60,17 +68,16 @@ Cycles TraversalUnit::accept_inputs(Cycles now) {
 }
 
 // Packets come only for a free context; lines and answers only for who has asked for them.
-Cycles TraversalUnit::earliest_input(Cycles others) const {
-  const Cycles message = others == kNever ? kNever : others + times_.link;
-  if (has_free_context()) return message;
-  return std::max(message, earliest_answer());
+Cycles TraversalUnit::earliest_input() {
+  const Cycles packet = has_free_context() ? packets_ahead_.earliest() : kNever;
+  return std::min({packet, earliest_answer(awaiting(), answers_ahead_),
+                   earliest_answer(parked(), lines_ahead_)});
 }
 
 void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
   const int number = take_context();
   Context& context = contexts_[static_cast<std::size_t>(number)];
   context.packet = packet;
-  context.position = 0;
   context.phase = Phase::kSetup;
   const auto lane = static_cast<std::size_t>(std::countr_zero(packet->active));
   const bool primary = packet->tag[lane].kind == RayKind::kPrimary;
@@ -80,6 +87,8 @@ void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
   trace_packet(scene_.scheme, scene_.tree, scene_.triangles, *packet, &context.log,
                per_lane ? &lanes : nullptr, counts);
   if (per_lane) heat_->add(*packet, lanes);
+  context.step = context.log.data();
+  context.end = context.step + context.log.size();
   schedule(number, now);
 }
 
@@ -94,19 +103,19 @@ void TraversalUnit::ready(int number, Cycles now) {
       begin_step(number, now);
       return;
     case Phase::kStepIssued:
-      if (context.log[context.position].num_tests != 0) {
+      if (context.step->num_tests != 0) {
         context.phase = Phase::kJob;
         send_job(number, now);
         return;
       }
-      ++context.position;
+      ++context.step;
       begin_step(number, now);
       return;
     case Phase::kJob:
       send_job(number, now);
       return;
     case Phase::kAnswered:
-      ++context.position;
+      ++context.step;
       begin_step(number, now);
       return;
     case Phase::kDone:
@@ -117,7 +126,7 @@ void TraversalUnit::ready(int number, Cycles now) {
 
 void TraversalUnit::begin_step(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  if (context.position < context.log.size()) {
+  if (context.step != context.end) {
     context.phase = Phase::kStep;
     enqueue(number);
   } else {
@@ -133,21 +142,34 @@ void TraversalUnit::issue(int number, Cycles now) {
     occupy(number, slots_per_step_, 0, 0, now);
     return;
   }
-  const Address node = scene_.memory.node(context.log[context.position].node);
+  const Address node = scene_.memory.node(context.step->node);
   const auto line = [&](std::uint32_t /*i*/) { return cache_.line_of(node); };
   const auto outcome = fetcher_.fetch(number, 1, DataKind::kNode, line, now);
   if (outcome.complete) {
     context.phase = Phase::kStepIssued;
-    occupy(number, slots_per_step_, cache_.hit_latency(), 0, now);
+    const std::uint32_t slots = step_slots(scene_.scheme, *context.step, slots_per_step_);
+    occupy(number, slots, cache_.hit_latency(), 0, now);
   } else {
     park(number, now + times_.line);
     occupy_missed(0, now);
   }
 }
 
+TraversalUnit::QuickStep TraversalUnit::step_if_hit(int number) {
+  Context& context = contexts_[static_cast<std::size_t>(number)];
+  if (context.phase != Phase::kStepIssued || context.step->num_tests != 0) return {};
+  const TraceStep* const next = context.step + 1;
+  if (next == context.end) return {};
+  if (!cache_.read_if_hit(cache_.line_of(scene_.memory.node(next->node)), DataKind::kNode)) {
+    return {};
+  }
+  context.step = next;
+  const std::uint32_t slots = step_slots(scene_.scheme, *next, slots_per_step_);
+  return {true, slots * spec_.initiation_interval, cache_.hit_latency() + spec_.latency};
+}
+
 void TraversalUnit::send_job(int number, Cycles now) {
-  const TraceStep& step = contexts_[static_cast<std::size_t>(number)]
-                              .log[contexts_[static_cast<std::size_t>(number)].position];
+  const TraceStep& step = *contexts_[static_cast<std::size_t>(number)].step;
   const LeafJob job{step.node, step.num_tests, number_, static_cast<std::uint16_t>(number)};
   switch (jobs_.write(job, now, is_certain(now), inbox_)) {
     case Sent::kYes:

@@ -24,7 +24,6 @@ struct TracedScene {
 
 /// Lower bounds on when answers come, from which a unit knows how far it may run ahead.
 struct AnswerTimes {
-  Cycles link = 1;        ///< the least latency of any link that ends in the unit
   Cycles line = 2;        ///< from a request for a line to its arrival
   Cycles leaf_fixed = 2;  ///< of a leaf job, from sending to the answer's arrival, without tests
   Cycles leaf_test = 1;   ///< for each test
@@ -78,16 +77,19 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   struct Context {
     RayPacket* packet = nullptr;
     TraceLog log;
-    std::size_t position = 0;
+    const TraceStep* step = nullptr;  ///< of the log, the one that is being replayed
+    const TraceStep* end = nullptr;
     Phase phase = Phase::kSetup;
   };
 
   void end_of_elaboration() override;
+  void start_of_simulation() override;
   Cycles accept_inputs(Cycles now);
   void accept_packet(RayPacket* packet, Cycles now);
   void ready(int context, Cycles now);
   void issue(int context, Cycles now);
-  [[nodiscard]] Cycles earliest_input(Cycles others) const;
+  [[nodiscard]] Cycles earliest_input();
+  QuickStep step_if_hit(int context);
   void begin_step(int context, Cycles now);
   void send_job(int context, Cycles now);
   void send_packet(int context, Cycles now);
@@ -101,6 +103,9 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   std::vector<Context> contexts_;
   TraceCounts primary_counts_;
   TraceCounts secondary_counts_;
+  Lookahead packets_ahead_;
+  Lookahead answers_ahead_;
+  Lookahead lines_ahead_;
   RoundRobin<LeafJob> jobs_;
   RoundRobin<RayPacket*> packets_;
 };

@@ -44,11 +44,11 @@ void fill(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::span<
 }  // namespace
 
 EmbreeOracle::EmbreeOracle(std::span<const Vec3> positions,
-                           std::span<const std::array<std::uint32_t, 3>> triangles)
+                           std::span<const std::array<std::uint32_t, 3>> triangles, Mode mode)
     : handles_(std::make_unique<Handles>()) {
   if (handles_->device == nullptr) throw std::runtime_error("Embree: no device");
   handles_->scene = rtcNewScene(handles_->device);
-  rtcSetSceneFlags(handles_->scene, RTC_SCENE_FLAG_ROBUST);
+  if (mode == Mode::kRobust) rtcSetSceneFlags(handles_->scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(handles_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   fill(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions);
   fill(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles);

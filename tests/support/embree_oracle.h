@@ -19,9 +19,13 @@ class EmbreeOracle {
     float t = 0.0F;
   };
 
-  /// Builds in robust mode (watertight and conservative). Throws std::runtime_error on failure.
+  /// Robust: watertight and conservative, as an oracle must be. Fast: Embree as it comes, for
+  /// benchmarks.
+  enum class Mode : std::uint8_t { kRobust, kFast };
+
+  /// Throws std::runtime_error on failure.
   EmbreeOracle(std::span<const Vec3> positions,
-               std::span<const std::array<std::uint32_t, 3>> triangles);
+               std::span<const std::array<std::uint32_t, 3>> triangles, Mode mode = Mode::kRobust);
   ~EmbreeOracle();
   EmbreeOracle(const EmbreeOracle&) = delete;
   EmbreeOracle& operator=(const EmbreeOracle&) = delete;

@@ -56,6 +56,19 @@ TEST(LeavingOut, LightsChangesNothingElse) {
   expect_nothing_else_changes(TinyGltf().write(scratch.path()), {"render.recursion_level=3"}, {});
 }
 
+TEST(LeavingOut, IsTheRuleForAShaderCacheThatIsNotAskedFor) {
+  const TestScene scene(committed_scene("sponza"), kSmallImage);
+  const std::vector<std::string> of_shader_cache{"system.shader_cache.",
+                                                 "system.link.shader_cache_to_shader_unit0."};
+  const Outcome without = scene.run();
+  EXPECT_EQ(without.entries(of_shader_cache).size(), 0U);
+  const Outcome with = scene.run({"shader_cache.cells=4"});
+  ASSERT_EQ(with.error, "");
+  EXPECT_NE(with.entries(of_shader_cache).size(), 0U);
+  EXPECT_LT(with.count("system.shader_cache.sum_materials_out"),
+            with.count("system.shader_cache.sum_materials_in"));
+}
+
 TEST(LeavingOut, AllSecondaryRaysChangesNothingElse) {
   const ScratchFolder scratch;
   expect_nothing_else_changes(TinyGltf().write(scratch.path()), {"render.recursion_level=0"},

@@ -41,8 +41,13 @@ Choices each_unit(const std::string& parameter, const std::vector<std::string>& 
 
 /// Everything that must not matter.
 std::vector<Choices> choices() {
-  return {each("ray_cache.heuristic",
-               {"none", "dir", "mdir(24)", "mdir(96)", "fastpos", "pos(1.0)", "opos"}),
+  return {each("ray_cache.heuristic", {"none", "dir", "mdir(24)", "mdir(96)", "fastpos", "pos(1.0)",
+                                       "opos", "ray5d(1)", "grid(4)"}),
+          each("ray_cache.order", {"arrival", "breadth_first"}),
+          each("ray_cache.group_by_kind", {"false", "true"}),
+          each("ray_cache.resident_voxels", {"0", "4"}),
+          each("shader_cache.cells", {"0", "1", "8"}),
+          each("shader_cache.key", {"material", "texture"}),
           each("packet.size", {"1", "3", "4", "16", "17", "64"}),
           each("ray_cache.cells", {"1", "2", "8", "96"}),
           each("ray_cache.victim", {"fullest", "oldest", "lru"}),
@@ -54,7 +59,7 @@ std::vector<Choices> choices() {
           each("flow.control", {"tile", "credits"}),
           each("flow.tile_size", {"8", "16", "64"}),
           each("packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}),
-          each("traversal.scheme", {"single", "masked"}),
+          each("traversal.scheme", {"single", "masked", "omni"}),
           each("run.fidelity", {"timed", "functional"})};
 }
 
@@ -122,7 +127,50 @@ TEST_P(MaskedTraversal, HasAsManyActiveLanesAsItsRaysHaveVisitsAlone) {
   }
 }
 
+class TraversalSchemes : public testing::TestWithParam<const char*> {
+ protected:
+  const TestScene scene_{committed_scene(GetParam()),
+                         {"image.width=12", "image.height=12", "render.recursion_level=1",
+                          "film.format=exact", "ray_cache.heuristic=none"}};
+};
+
+// p_t compares with rays traced alone, also where a packet takes rays elsewhere. Untimed, for an
+// interval of scattered rays leads through most of a tree.
+TEST_P(TraversalSchemes, FindTheSamePictureAndCountTheSameForRaysAlone) {
+  const auto run = [&](const std::string& scheme) {
+    return scene_.run({"run.fidelity=functional", "traversal.scheme=" + scheme});
+  };
+  const Outcome masked = run("masked");
+  ASSERT_EQ(masked.error, "");
+  for (const char* scheme : {"single", "interval", "interval_entry", "omni"}) {
+    const Outcome other = run(scheme);
+    ASSERT_NO_FATAL_FAILURE(expect_same(other, masked, {scheme}));
+    for (const char* counter : {"lane_inner_visits", "lane_leaf_visits", "lane_triangle_tests"}) {
+      const std::string path = std::string("trace.secondary.") + counter;
+      EXPECT_EQ(other.count(path), masked.count(path)) << scheme << ' ' << counter;
+    }
+    const char* const visits = "trace.secondary.packet_inner_visits";
+    if (scheme == std::string("omni")) {
+      EXPECT_LT(other.count(visits), masked.count(visits));
+    } else {
+      EXPECT_GT(other.count(visits), masked.count(visits)) << scheme;
+    }
+  }
+}
+
+TEST_P(TraversalSchemes, DoTheSameWorkTimedAsUntimed) {
+  for (const char* scheme : {"single", "masked", "interval", "interval_entry", "omni"}) {
+    const std::string setting = std::string("traversal.scheme=") + scheme;
+    const Outcome timed = scene_.run({setting});
+    const Outcome functional = scene_.run({setting, "run.fidelity=functional"});
+    ASSERT_NO_FATAL_FAILURE(expect_same(functional, timed, {scheme}));
+    EXPECT_EQ(functional.entries({"trace."}), timed.entries({"trace."})) << scheme;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Committed, SameImage, testing::ValuesIn(kCommittedScenes),
+                         [](const auto& scene) { return std::string(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Committed, TraversalSchemes, testing::ValuesIn(kCommittedScenes),
                          [](const auto& scene) { return std::string(scene.param); });
 INSTANTIATE_TEST_SUITE_P(Committed, MaskedTraversal, testing::ValuesIn(kCommittedScenes),
                          [](const auto& scene) { return std::string(scene.param); });

@@ -53,6 +53,11 @@ TEST_P(SmallestMachine, FinishesWithTheSamePicture) {
   const std::vector<Settings> machines{
       {"flow.control=tile"},
       {"flow.control=tile", "ray_cache.heuristic=opos"},
+      {"flow.control=tile", "ray_cache.heuristic=grid(4)", "ray_cache.group_by_kind=true"},
+      {"flow.control=tile", "ray_cache.order=breadth_first", "shader_cache.cells=1"},
+      {"flow.control=credits", fewest_credits(scene, 16), "shader_cache.cells=1"},
+      {"flow.control=credits", fewest_credits(scene, 16), "shader_cache.cells=1",
+       "ray_cache.heuristic=none"},
       {"flow.control=credits", fewest_credits(scene, 16)},
       {"flow.control=credits", fewest_credits(scene, 16), "ray_cache.heuristic=none"},
       {"flow.control=credits", fewest_credits(scene, 1), "packet.size=1"},

@@ -25,9 +25,18 @@ TEST(HeuristicChoice, ReadsEveryNameOfThePaper) {
   EXPECT_EQ(pos.x, 2.5e-3);
 }
 
+TEST(HeuristicChoice, ReadsTheNamesOfItsField) {
+  const HeuristicChoice ray5d = HeuristicChoice::parse("ray5d(2)");
+  EXPECT_EQ(ray5d.kind, Kind::kRay5d);
+  EXPECT_EQ(ray5d.x, 2.0);
+  const HeuristicChoice grid = HeuristicChoice::parse("grid(8)");
+  EXPECT_EQ(grid.kind, Kind::kGrid);
+  EXPECT_EQ(grid.x, 8.0);
+}
+
 TEST(HeuristicChoice, WritesWhatItReads) {
-  for (const char* text :
-       {"none", "dir", "mdir(6)", "mdir(393216)", "fastpos", "pos(0.1)", "opos"}) {
+  for (const char* text : {"none", "dir", "mdir(6)", "mdir(393216)", "fastpos", "pos(0.1)", "opos",
+                           "ray5d(3)", "grid(64)"}) {
     EXPECT_EQ(HeuristicChoice::parse(text).to_string(), text);
   }
 }
@@ -36,7 +45,14 @@ TEST(HeuristicChoice, HasOneNaturalCellForEveryKey) {
   EXPECT_EQ(HeuristicChoice::parse("dir").natural_cells(), 8U);
   EXPECT_EQ(HeuristicChoice::parse("fastpos").natural_cells(), 8U);
   EXPECT_EQ(HeuristicChoice::parse("mdir(216)").natural_cells(), 216U);
+  EXPECT_EQ(HeuristicChoice::parse("ray5d(0)").natural_cells(), 6U);
+  EXPECT_EQ(HeuristicChoice::parse("ray5d(1)").natural_cells(), 192U);
+}
+
+TEST(HeuristicChoice, HasARoundNumberOfCellsWithoutKeysOrWithTooMany) {
   EXPECT_EQ(HeuristicChoice::parse("pos(1)").natural_cells(), 64U);
+  EXPECT_EQ(HeuristicChoice::parse("grid(16)").natural_cells(), 64U);
+  EXPECT_EQ(HeuristicChoice::parse("ray5d(3)").natural_cells(), 192U);
 }
 
 class HeuristicRefusal : public testing::TestWithParam<std::string> {};
@@ -53,14 +69,14 @@ TEST_P(HeuristicRefusal, IsOneUsageErrorThatQuotesTheText) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Texts, HeuristicRefusal,
-                         testing::Values("", "Dir", "dir ", " dir", "dir(8)", "opos(1)", "mdir",
-                                         "mdir()", "mdir(96", "mdir(96))", "mdir(96x)", "mdir( 96)",
-                                         "mdir(0)", "mdir(-96)", "mdir(5)", "mdir(95)",
-                                         "mdir(96.5)", "mdir(nan)", "mdir(inf)", "mdir(396294)",
-                                         "mdir(1e300)", "pos", "pos()", "pos(0)", "pos(-1)",
-                                         "pos(nan)", "pos(inf)", "pos(1e999)", "pos(0x1)",
-                                         "pos(1,0)", "(1)", "none()"));
+INSTANTIATE_TEST_SUITE_P(
+    Texts, HeuristicRefusal,
+    testing::Values("", "Dir", "dir ", " dir", "dir(8)", "opos(1)", "mdir", "mdir()", "mdir(96",
+                    "mdir(96))", "mdir(96x)", "mdir( 96)", "mdir(0)", "mdir(-96)", "mdir(5)",
+                    "mdir(95)", "mdir(96.5)", "mdir(nan)", "mdir(inf)", "mdir(396294)",
+                    "mdir(1e300)", "pos", "pos()", "pos(0)", "pos(-1)", "pos(nan)", "pos(inf)",
+                    "pos(1e999)", "pos(0x1)", "pos(1,0)", "(1)", "none()", "ray5d", "ray5d(-1)",
+                    "ray5d(4)", "ray5d(0.5)", "grid(0)", "grid(65)", "grid(2.5)", "grid(nan)"));
 
 }  // namespace
 }  // namespace sheaf

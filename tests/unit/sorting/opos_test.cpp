@@ -15,7 +15,7 @@ const Vec3 kPlus(1.0F, 1.0F, 1.0F);
 const Vec3 kMinus(-1.0F, 1.0F, 1.0F);
 
 struct Bench {
-  explicit Bench(int packet_size) : pool(packet_size), sorter(pool) {}
+  explicit Bench(int packet_size) : pool(packet_size), sorter(false, pool) {}
   void insert(std::uint64_t id, const Vec3& direction, float x, Cycles now = 0) {
     sorter.insert(ray_of(id, direction, {x, 0.0F, 0.0F}), now, departures);
   }

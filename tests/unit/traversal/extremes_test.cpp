@@ -14,8 +14,7 @@ namespace {
 
 void expect_nothing_lost(const TestScene& scene, const Ray& ray) {
   const Hit expected = test_all(scene, ray);
-  ASSERT_EQ(trace_one(scene, ray, TraversalScheme::kSingle), expected);
-  ASSERT_EQ(trace_one(scene, ray, TraversalScheme::kMasked), expected);
+  for (const auto scheme : kTraversalSchemes) ASSERT_EQ(trace_one(scene, ray, scheme), expected);
 }
 
 /// Zeros of either sign and numbers too small to invert, besides ordinary ones.

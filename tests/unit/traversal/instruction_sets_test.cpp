@@ -12,7 +12,7 @@ namespace sheaf::test {
 namespace {
 
 /// Everything that a set of packets leaves behind, in bits.
-std::vector<std::uint32_t> trace_all(const TestScene& scene) {
+std::vector<std::uint32_t> trace_all(const TestScene& scene, TraversalScheme scheme) {
   std::vector<std::uint32_t> out;
   Random random(51);
   for (const int size : {1, 3, 4, 8, 12, 16, 17, 32, 64}) {
@@ -33,8 +33,7 @@ std::vector<std::uint32_t> trace_all(const TestScene& scene) {
       }
       TraceCounts counts;
       TraceLog log;
-      trace_packet(TraversalScheme::kMasked, scene.tree, scene.records, packet, &log, nullptr,
-                   counts);
+      trace_packet(scheme, scene.tree, scene.records, packet, &log, nullptr, counts);
       for (std::size_t lane = 0; lane < static_cast<std::size_t>(size); ++lane) {
         out.push_back(packet.hit_triangle[lane]);
         out.push_back(std::bit_cast<std::uint32_t>(packet.hit_t[lane]));
@@ -53,13 +52,17 @@ TEST(InstructionSets, AllGiveBitIdenticalHitsAndLogs) {
   const TestScene soup_scene(soup(1500, 0.12F, 52));
   const TestScene lattice_scene(lattice(4));
   for (const TestScene* scene : {&soup_scene, &lattice_scene}) {
-    const std::vector<std::uint32_t> best = trace_all(*scene);
+    std::vector<std::vector<std::uint32_t>> best;
+    for (const auto scheme : kTraversalSchemes) best.push_back(trace_all(*scene, scheme));
     const std::int64_t supported = hwy::SupportedTargets();
     for (std::int64_t left = supported; left != 0; left &= left - 1) {
       // Lower bits are better targets: leave this one and those below it.
       const std::int64_t target = left & -left;
       hwy::SetSupportedTargetsForTest(supported & ~(target - 1));
-      EXPECT_EQ(trace_all(*scene), best) << "target " << hwy::TargetName(target);
+      for (std::size_t i = 0; i < kTraversalSchemes.size(); ++i) {
+        EXPECT_EQ(trace_all(*scene, kTraversalSchemes[i]), best[i])
+            << "target " << hwy::TargetName(target) << ", scheme " << i;
+      }
     }
     hwy::SetSupportedTargetsForTest(0);
   }

@@ -29,12 +29,13 @@ void expect_no_leak(const TestScene& scene, const Vec3& origin, int rays, Random
       distance[static_cast<std::size_t>(lane)] = glm::length(to);
       packet.put(lane, make_ray(origin, glm::normalize(to)));
     }
-    TraceCounts counts;
-    trace_packet(TraversalScheme::kMasked, scene.tree, scene.records, packet, nullptr, nullptr,
-                 counts);
-    for (std::size_t lane = 0; lane < 16; ++lane) {
-      ASSERT_NE(packet.hit_triangle[lane], kNoHit) << "a ray got out";
-      ASSERT_NEAR(packet.hit_t[lane], distance[lane], 1e-3F * distance[lane]);
+    for (const auto scheme : kTraversalSchemes) {
+      TraceCounts counts;
+      trace_packet(scheme, scene.tree, scene.records, packet, nullptr, nullptr, counts);
+      for (std::size_t lane = 0; lane < 16; ++lane) {
+        ASSERT_NE(packet.hit_triangle[lane], kNoHit) << "a ray got out";
+        ASSERT_NEAR(packet.hit_t[lane], distance[lane], 1e-3F * distance[lane]);
+      }
     }
   }
 }

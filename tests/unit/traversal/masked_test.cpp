@@ -26,28 +26,6 @@ Walk walk(const TestScene& scene, TraversalScheme scheme, const RayPacket& packe
   return w;
 }
 
-/// Rays of mixed directions, kinds and lengths in some lanes of a packet.
-RayPacket random_packet(Random& random, int size, const TestScene& scene) {
-  RayPacket packet;
-  packet.clear(size);
-  const std::uint64_t filled = random.below(4) == 0 ? random.next() : ~std::uint64_t{0};
-  const bool coherent = random.below(2) == 0;
-  const Ray base = random_ray(random, scene.tree.bounds);
-  for (int lane = 0; lane < size; ++lane) {
-    Ray ray = random_ray(random, scene.tree.bounds);
-    if (coherent) {
-      ray.origin = base.origin;
-      ray.direction = glm::normalize(base.direction + 0.1F * ray.direction);
-    }
-    if (random.below(3) == 0) {
-      ray.tag.kind = RayKind::kShadow;
-      ray.t_max = random.uniform();
-    }
-    if ((filled >> lane & 1U) != 0) packet.put(lane, ray);
-  }
-  return packet;
-}
-
 void expect_same_hits(const RayPacket& a, const RayPacket& b) {
   for (LaneMask left = a.active; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));

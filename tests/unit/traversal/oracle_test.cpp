@@ -32,9 +32,9 @@ TEST(TraceOracle, FindsExactlyWhatTestingEveryTriangleFinds) {
     for (int i = 0; i < 2000; ++i) {
       const Ray ray = random_ray(random, scene.tree.bounds);
       const Hit expected = test_all(scene, ray);
-      ASSERT_EQ(trace_one(scene, ray), expected) << c.name << ", ray " << i;
-      ASSERT_EQ(trace_one(scene, ray, TraversalScheme::kMasked), expected)
-          << c.name << ", ray " << i;
+      for (const auto scheme : kTraversalSchemes) {
+        ASSERT_EQ(trace_one(scene, ray, scheme), expected) << c.name << ", ray " << i;
+      }
     }
   }
 }
@@ -86,7 +86,7 @@ TEST(TraceOracle, AnyHitAgreesWithClosestHit) {
       const Hit closest = test_all(scene, ray);
       ray.tag.kind = RayKind::kShadow;
       const bool blocked = closest.triangle != kNoHit && closest.t < ray.t_max;
-      for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+      for (const auto scheme : kTraversalSchemes) {
         ASSERT_EQ(trace_one(scene, ray, scheme).triangle != kNoHit, blocked)
             << c.name << ", ray " << i;
       }

@@ -128,8 +128,29 @@ Ray random_ray(Random& random, const Box& bounds) {
   return make_ray(origin, random_direction(random));
 }
 
+RayPacket random_packet(Random& random, int size, const TestScene& scene) {
+  RayPacket packet;
+  packet.clear(size);
+  const std::uint64_t filled = random.below(4) == 0 ? random.next() : ~std::uint64_t{0};
+  const bool coherent = random.below(2) == 0;
+  const Ray base = random_ray(random, scene.tree.bounds);
+  for (int lane = 0; lane < size; ++lane) {
+    Ray ray = random_ray(random, scene.tree.bounds);
+    if (coherent) {
+      ray.origin = base.origin;
+      ray.direction = glm::normalize(base.direction + 0.1F * ray.direction);
+    }
+    if (random.below(3) == 0) {
+      ray.tag.kind = RayKind::kShadow;
+      ray.t_max = random.uniform();
+    }
+    if ((filled >> lane & 1U) != 0) packet.put(lane, ray);
+  }
+  return packet;
+}
+
 Hit trace_one(const TestScene& scene, const Ray& ray, TraversalScheme scheme) {
-  const std::size_t lanes = scheme == TraversalScheme::kMasked ? 2 : 1;
+  const std::size_t lanes = scheme == TraversalScheme::kSingle ? 1 : 2;
   RayPacket packet;
   packet.clear(static_cast<int>(lanes));
   for (std::size_t lane = 0; lane < lanes; ++lane) packet.put(static_cast<int>(lane), ray);

@@ -45,14 +45,16 @@ struct TestScene {
 /// From anywhere in the slightly enlarged bounds into any direction.
 [[nodiscard]] Ray random_ray(Random& random, const Box& bounds);
 [[nodiscard]] Ray make_ray(const Vec3& origin, const Vec3& direction);
+/// Rays of mixed directions, kinds and lengths in some lanes of a packet.
+[[nodiscard]] RayPacket random_packet(Random& random, int size, const TestScene& scene);
 
 struct Hit {
   std::uint32_t triangle = kNoHit;
   float t = 0.0F;
   bool operator==(const Hit&) const = default;
 };
-/// Traces one ray. kMasked traces it beside a copy of itself, for a lane left alone leaves the
-/// vector kernel; throws std::logic_error if the two fare differently.
+/// Traces one ray. All but kSingle trace it beside a copy of itself, for a lane left alone leaves
+/// the vector kernel; throws std::logic_error if the two fare differently.
 [[nodiscard]] Hit trace_one(const TestScene& scene, const Ray& ray,
                             TraversalScheme scheme = TraversalScheme::kSingle);
 /// The same triangle test on every triangle: what a traversal that loses nothing must find.

@@ -38,7 +38,7 @@ TEST(Trace, ClosestHitIncludesTMaxAndShadowRaysExcludeIt) {
   Mesh mesh;
   add_wall(mesh, 2.0F);
   const TestScene scene(mesh);
-  for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+  for (const auto scheme : kTraversalSchemes) {
     Ray ray = make_ray(kInside, kForward);
     ray.t_max = 2.0F;
     EXPECT_EQ(trace_one(scene, ray, scheme).triangle, 0U);
@@ -66,7 +66,7 @@ TEST(Trace, NothingBehindTheOriginIsHit) {
   add_wall(mesh, 1.0F);
   add_wall(mesh, 3.0F);
   const TestScene scene(mesh);
-  for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+  for (const auto scheme : kTraversalSchemes) {
     const Ray between = make_ray(kInside + 2.0F * kForward, kForward);
     EXPECT_EQ(trace_one(scene, between, scheme).t, 1.0F);
     const Ray beyond = make_ray(kInside + 4.0F * kForward, kForward);
@@ -94,7 +94,7 @@ TEST(Trace, EqualDistanceGoesToTheLowerPrimitive) {
       const Vec3 to(random.uniform(), random.uniform(), 2.0F);
       const Vec3 from = random_point(random);
       const Ray ray = make_ray(from, glm::normalize(to - from));
-      for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+      for (const auto scheme : kTraversalSchemes) {
         ASSERT_EQ(trace_one(scene, ray, scheme), test_all(scene, ray)) << "ray " << i;
       }
     }
@@ -132,9 +132,9 @@ TEST(Trace, RaysThatAreNotFiniteMeetNothingAndVisitNothing) {
   Ray ray = make_ray(Vec3(0.5F), kForward);
   ray.t_max = kNan;
   packet.put(lane++, ray);
-  for (const auto scheme : {TraversalScheme::kSingle, TraversalScheme::kMasked}) {
+  for (const auto scheme : kTraversalSchemes) {
     TraceCounts counts;
-    TraceLog log{{1, 2}};
+    TraceLog log{{1, 2, 0}};
     trace_packet(scheme, scene.tree, scene.records, packet, &log, nullptr, counts);
     EXPECT_TRUE(log.empty());
     EXPECT_EQ(counts.lane_inner_visits + counts.lane_leaf_visits, 0U);
@@ -146,7 +146,7 @@ TEST(Trace, EmptyPacketClearsTheLogAndCountsNothing) {
   const TestScene scene(soup(100, 0.5F, 11));
   RayPacket packet;
   packet.clear(16);
-  TraceLog log{{1, 2}};
+  TraceLog log{{1, 2, 0}};
   LaneCounts lanes;
   lanes.inner_visits[3] = 7;
   TraceCounts counts;

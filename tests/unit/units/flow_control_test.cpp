@@ -58,10 +58,22 @@ TEST(FlowControl, IsQuietWhenEveryRayWaitsInACell) {
   EXPECT_TRUE(flow.is_quiet());
   flow.admit(16, 0);
   EXPECT_FALSE(flow.is_quiet());
-  flow.set_waiting(15);
+  flow.set_waiting(15, 0);
   EXPECT_FALSE(flow.is_quiet());
-  flow.set_waiting(16);
+  flow.set_waiting(16, 0);
   EXPECT_TRUE(flow.is_quiet());
+}
+
+TEST(FlowControl, IsQuietWhenRaysWaitInCellsOfEitherCache) {
+  FlowControl flow = flow_of(FlowPolicy::kTile, 0);
+  flow.admit(16, 0);
+  flow.set_waiting(10, 0);
+  EXPECT_FALSE(flow.waits_for_shader());
+  flow.set_waiting_for_shader(5);
+  EXPECT_FALSE(flow.is_quiet());
+  flow.set_waiting_for_shader(6);
+  EXPECT_TRUE(flow.is_quiet());
+  EXPECT_TRUE(flow.waits_for_shader());
 }
 
 TEST(FlowControl, IsFinishedWhenTheSourceIsExhaustedAndNoRayLives) {
@@ -107,7 +119,7 @@ TEST(FlowControl, WakesSourceAndRegrouperACycleAfterTheLoopFallsQuiet) {
   Wakes wakes(flow);
   flow.admit(16, 0);
   flow.replace(8, 0, 0, 0, 5);
-  flow.set_waiting(3);
+  flow.set_waiting(3, 0);
   flow.replace(8, 3, 0, 0, 7);
   sc_core::sc_start();
   EXPECT_EQ(wakes.source.woken, std::vector<Cycles>{8});

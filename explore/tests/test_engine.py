@@ -1,0 +1,175 @@
+# SPDX-FileCopyrightText: 2026 The Sheaf authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sweeps with a stand-in for the simulator: accounts, failures, limits, resuming, statuses."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Explore, Finished
+
+from sheaf_explore.simulator import Simulator
+from sheaf_explore.store import Store
+
+Write = Callable[[str], Path]
+HEAD = 'scenes = ["scene.glb"]\n'
+
+
+def axis(key: str, values: object) -> str:
+    return f"[[axis]]\nkey = '{key}'\nvalues = {values}\n"
+
+
+def starts(simulator: Simulator) -> int:
+    path = simulator.path.parent / "starts"
+    return len(path.read_text().splitlines()) if path.exists() else 0
+
+
+@pytest.fixture
+def sweep(
+    explore: Explore, write_spec: Write, stand_in: Simulator, tmp_path: Path
+) -> Callable[..., Finished]:
+    def run(text: str, *words: object) -> Finished:
+        spec = write_spec(HEAD + text)
+        out = tmp_path / "out"
+        return explore("sweep", spec, "--sheaf", stand_in.path, "--out", out, "-j", 2, *words)
+
+    return run
+
+
+Sweep = Callable[..., Finished]
+
+
+def test_every_point_has_one_folder_and_nothing_else_is_left(
+    sweep: Sweep, tmp_path: Path, stand_in: Simulator
+) -> None:
+    done = sweep(axis("l2.ways", list(range(1, 21))))
+    assert done.returncode == 0, done.stderr
+    assert "20 of 20 points done" in done.stderr
+    out = tmp_path / "out"
+    names = {entry["id"] for entry in Store(out).sweep()["points"]}
+    assert {path.name for path in (out / "points").iterdir()} == names
+    assert not list((out / "work").iterdir())
+    assert not (out / "failures").exists()
+    assert starts(stand_in) == 20
+
+
+def test_a_second_call_runs_nothing(sweep: Sweep, stand_in: Simulator) -> None:
+    sweep(axis("l2.ways", [1, 2, 3]))
+    done = sweep(axis("l2.ways", [1, 2, 3]))
+    assert done.returncode == 0
+    assert "3 of them before" in done.stderr
+    assert starts(stand_in) == 3
+
+
+def test_a_wider_spec_runs_only_what_is_new(sweep: Sweep, stand_in: Simulator) -> None:
+    sweep(axis("l2.ways", [1, 2, 3]))
+    assert sweep(axis("l2.ways", [1, 2, 3, 4])).returncode == 0
+    assert starts(stand_in) == 4
+
+
+def test_failures_are_told_kept_and_do_not_stop_the_others(
+    sweep: Sweep, tmp_path: Path, stand_in: Simulator
+) -> None:
+    text = "[limits]\ntime = '0.5s'\nretries = 1\n" + axis("dram.latency", [10, 13, 14, 15, 17, 19])
+    done = sweep(text)
+    assert done.returncode == 1
+    failures = [json.loads(p.read_text()) for p in (tmp_path / "out/failures").iterdir()]
+    kinds = {f["point"]["settings"]["dram.latency"]: (f["kind"], f["message"]) for f in failures}
+    assert kinds == {
+        13: ("refused", "configuration refused: dram.latency = 13 is bad luck"),
+        14: ("signal", "ended by SIGKILL; out of memory?"),
+        15: ("timeout", "took longer than the limit of 0.5 s"),
+        17: ("refused", "ended without a result: no message"),
+    }
+    assert "dram.latency=13): configuration refused: dram.latency = 13 is bad luck" in done.stderr
+    assert "2 of 6 points done; 4 failed" in done.stderr
+    assert starts(stand_in) == 7  # only the signal is tried again
+
+
+def test_a_refusal_is_remembered_and_other_failures_are_tried_again(
+    sweep: Sweep, stand_in: Simulator
+) -> None:
+    text = "[limits]\nretries = 0\n" + axis("dram.latency", [13, 14])
+    sweep(text)
+    done = sweep(text)
+    assert done.returncode == 1
+    assert "failed before" in done.stderr
+    assert starts(stand_in) == 3
+
+
+def test_a_crash_is_tried_again_and_can_succeed(sweep: Sweep, stand_in: Simulator) -> None:
+    done = sweep(axis("dram.latency", [16]))
+    assert done.returncode == 0
+    assert "trying again" in done.stderr
+    assert starts(stand_in) == 2
+
+
+def test_a_dry_run_lists_points_and_keeps_its_probes(sweep: Sweep, stand_in: Simulator) -> None:
+    done = sweep(axis("l2.ways", list(range(1, 11))), "--dry-run", "--probes", 3)
+    assert done.returncode == 0
+    assert done.stdout.count("to do") == 10
+    assert "7 points left" in done.stderr
+    assert starts(stand_in) == 3
+    assert sweep(axis("l2.ways", list(range(1, 11)))).returncode == 0
+    assert starts(stand_in) == 10
+
+
+def test_a_folder_of_something_else_is_not_touched(sweep: Sweep, tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/thesis.txt").write_text("mine")
+    done = sweep(axis("l2.ways", [1]))
+    assert done.returncode == 4
+    assert [p.name for p in (tmp_path / "out").iterdir()] == ["thesis.txt"]
+
+
+def processes_with(word: str) -> list[int]:
+    """Processes whose command line has this word."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if word.encode() in path.read_bytes():
+                found.append(int(path.parent.name))
+        except OSError:
+            continue
+    return [pid for pid in found if pid != os.getpid()]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_sweep_stops_at_once_and_resumes(
+    sweep: Sweep, write_spec: Write, stand_in: Simulator, tmp_path: Path, number: signal.Signals
+) -> None:
+    text = axis("dram.latency", [15, 20, 21, 22])
+    spec = write_spec(HEAD + text)
+    words = ["sweep", spec, "--sheaf", stand_in.path, "--out", tmp_path / "out", "-j", "2"]
+    command = [sys.executable, "-m", "sheaf_explore", *map(str, words)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 60
+        while len(list((tmp_path / "out").glob("points/*"))) < 3:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=30)
+    assert process.returncode == 130, errors
+    assert "3 of 4 points done; interrupted: the same command resumes" in errors
+    assert not processes_with(str(tmp_path / "out"))
+    text = text.replace("15, ", "")
+    assert sweep(text).returncode == 0
+    assert starts(stand_in) == 4
+
+
+def test_two_sweeps_cannot_use_one_folder(
+    sweep: Sweep, write_spec: Write, stand_in: Simulator, tmp_path: Path
+) -> None:
+    store = Store(tmp_path / "out")
+    with store.opened():
+        done = sweep(axis("l2.ways", [1]))
+    assert done.returncode == 2
+    assert "another sweep is running here" in done.stderr

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 The Sheaf authors
+# SPDX-License-Identifier: Apache-2.0
+"""The table and the report: numbers, plots, links, and the page in a browser."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+from conftest import Explore
+
+from sheaf_explore.collect import collect
+from sheaf_explore.derived import derive, RAY_BITS, sram_bits
+from sheaf_explore.simulator import Simulator
+from sheaf_explore.store import Store
+
+Write = Callable[[str], Path]
+SPEC = """name = "ways </script> & <latency>"
+scenes = ["scene.glb"]
+[[axis]]
+key = "l2.ways"
+range = "1..32 x2"
+[[axis]]
+key = "dram.latency"
+values = [13, 20, 40]
+"""
+
+
+@pytest.fixture
+def swept(explore: Explore, write_spec: Write, stand_in: Simulator, tmp_path: Path) -> Path:
+    out = tmp_path / "out"
+    spec = write_spec(SPEC)
+    assert explore("sweep", spec, "--sheaf", stand_in.path, "--out", out).returncode == 1
+    return out
+
+
+def test_the_table_has_a_row_a_point_and_a_column_a_number(explore: Explore, swept: Path) -> None:
+    assert explore("collect", swept).returncode == 0
+    frame = pd.read_parquet(swept / "results.parquet")
+    assert len(frame) == 12
+    row = frame[(frame["l2.ways"] == 4) & (frame["dram.latency"] == 40)].iloc[0]
+    assert row["system.cycles"] == 404
+    assert row["derived.dram_bytes"] == row["system.dram.bytes_read"] == 2499
+    pd.testing.assert_frame_equal(pd.read_csv(swept / "results.csv"), frame, check_dtype=False)
+    schema = pq.read_schema(swept / "results.parquet")
+    assert schema.field("system.cycles").metadata[b"unit"] == b"cycles"
+    assert "system.cycles,cycles" in (swept / "columns.csv").read_text().splitlines()
+
+
+def test_collecting_again_gives_the_same_bytes(explore: Explore, swept: Path) -> None:
+    def files() -> list[bytes]:
+        explore("collect", swept)
+        return [(swept / f"results.{kind}").read_bytes() for kind in ("csv", "parquet")]
+
+    assert files() == files()
+
+
+def test_counters_are_told_from_settings(swept: Path) -> None:
+    counters = collect(Store(swept)).counters()
+    assert "system.cycles" in counters
+    assert "l2.ways" not in counters
+
+
+def test_collecting_nothing_is_refused(explore: Explore, tmp_path: Path) -> None:
+    done = explore("collect", tmp_path)
+    assert done.returncode == 2
+    assert "is no sweep" in done.stderr
+
+
+def test_a_damaged_result_is_named(explore: Explore, swept: Path) -> None:
+    victim = next((swept / "points").iterdir()) / "stats.json"
+    victim.write_text("{")
+    done = explore("collect", swept)
+    assert done.returncode == 2
+    assert str(victim) in done.stderr
+
+
+def test_sram_counts_caches_cells_and_fifo() -> None:
+    settings = {
+        "node_cache.mode": "normal",
+        "node_cache.capacity": 1024,
+        "triangle_cache.mode": "perfect",
+        "triangle_cache.capacity": 4096,
+        "packet.size": 4,
+        "packet_fifo.depth": 2,
+        "ray_cache.cells": 0,
+        "ray_cache.heuristic": "mdir(24)",
+    }
+    counters = {
+        "system.cycles": 1,
+        "system.traversal_unit0.node_cache.num_accesses": 8,
+        "system.traversal_unit0.node_cache.num_hits": 6,
+        "system.traversal_unit1.node_cache.num_accesses": 2,
+        "system.traversal_unit1.node_cache.num_hits": 1,
+        "system.intersection_unit0.triangle_cache.num_accesses": 8,
+        "system.ray_cache.num_insertions": 5,
+        "system.packet_fifo.max_occupancy": 1,
+    }
+    cache = 2 * 8 * 1024
+    assert sram_bits(counters, settings) == cache + 24 * 4 * RAY_BITS + 2 * 4 * (RAY_BITS + 1)
+    assert derive(counters, settings)["derived.node_cache.hit_rate"] == (0.7, "1")
+
+
+def test_a_report_is_one_page_with_plots_and_links(explore: Explore, swept: Path) -> None:
+    assert explore("report", swept).returncode == 0
+    report = swept / "report"
+    page = (report / "index.html").read_text()
+    assert "12 of 18 points have results, 6 failed" in page
+    assert "12 traced their scene live, 0 replayed" in page
+    assert "dram.latency = 13 is bad luck" in page
+    for address in re.findall(r'href="(\.\./[^"]+)"', page):
+        assert (report / address).exists(), address
+    pictures = [p for p in report.iterdir() if p.suffix == ".png"]
+    assert len(pictures) >= 4
+    for picture in pictures:
+        assert picture.read_bytes().startswith(b"\x89PNG")
+        assert picture.with_suffix(".svg").read_text().startswith("<svg")
+
+
+_CHROMIUMS_OWN = re.compile(r"(^|\.)(google|googleapis|gvt1|gstatic)\.com$")
+CHROMIUM = shutil.which("chromium")
+
+
+def browse(page: Path, tmp_path: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Opens a page in headless Chromium that may not look up any host."""
+    command = [str(CHROMIUM), "--headless=new", "--no-sandbox", "--disable-gpu"]
+    command += ["--hide-scrollbars", "--enable-logging=stderr", "--log-level=0"]
+    command += ["--virtual-time-budget=15000", f"--user-data-dir={tmp_path / 'profile'}"]
+    command += ["--window-size=1280,2600", "--host-resolver-rules=MAP * ~NOTFOUND"]
+    command += [f"--log-net-log={tmp_path / 'net.json'}", *words, page.as_uri()]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+def test_a_browser_draws_every_plot_without_errors_or_network(
+    explore: Explore, swept: Path, tmp_path: Path
+) -> None:
+    explore("report", swept)
+    done = browse(swept / "report" / "index.html", tmp_path, "--dump-dom")
+    assert done.returncode == 0, done.stderr
+    console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    assert not console
+    charts = re.findall(r'class="chart[^"]*" id="chart-([^"]+)"([^>]*)', done.stdout)
+    assert len(charts) >= 5
+    assert all('data-drawn="yes"' in attributes for _, attributes in charts)
+    assert done.stdout.count('class="marks"') == len(charts)
+    # Chromium looks for its own updates and dictionaries; the page asks for nothing but files.
+    asked = re.findall(r'"url":"(?:https?|wss?)://([^/"]+)', (tmp_path / "net.json").read_text())
+    assert not [host for host in asked if not _CHROMIUMS_OWN.search(host)]

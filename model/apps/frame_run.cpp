@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/frame_run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include "base/errors.h"
+#include "config/config_text.h"
+#include "report/images.h"
+#include "report/progress.h"
+#include "report/stats_json.h"
+#include "report/summary.h"
+#include "scene/load_gltf.h"
+#include "system/coherence.h"
+#include "system/functional_pipeline.h"
+#include "system/machine.h"
+#include "system/report_parts.h"
+
+namespace sheaf {
+namespace {
+
+volatile std::sig_atomic_t interrupt_seen = 0;
+
+// Asks the run to end with what it has; a second signal ends the process.
+void on_interrupt(int signal) {
+  interrupt_seen = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+Vec3 to_vec(const Triple& t) {
+  return {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)};
+}
+
+template <typename To, typename From, typename F>
+std::optional<To> convert(const std::optional<From>& value, F&& f) {
+  return value ? std::optional<To>(f(*value)) : std::nullopt;
+}
+
+SceneLoadOptions load_options(const Config& config) {
+  const auto to_float = [](double x) { return static_cast<float>(x); };
+  SceneLoadOptions options;
+  options.reflectance = convert<float>(config.scene.reflectance, to_float);
+  options.background = to_vec(config.scene.background);
+  options.camera_name = config.camera.name;
+  options.camera_position = convert<Vec3>(config.camera.position, to_vec);
+  options.camera_look_at = convert<Vec3>(config.camera.look_at, to_vec);
+  options.camera_yfov = convert<float>(config.camera.yfov, to_float);
+  options.light_position = convert<Vec3>(config.light.position, to_vec);
+  options.light_intensity = convert<float>(config.light.intensity, to_float);
+  return options;
+}
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Simulates; fills the frame and the statistics. Returns true if the frame is complete.
+bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
+              FrameGuest* guest, StatsTree& stats) {
+  Progress progress;
+  const RunHooks hooks = guest != nullptr ? guest->hooks() : RunHooks{};
+  const auto stop = [&] { return interrupt_seen != 0 || (guest != nullptr && guest->failed()); };
+  if (config.run.fidelity == Fidelity::kFunctional) {
+    FunctionalPipeline pipeline(config, plan, scene, frame, hooks);
+    const bool complete = pipeline.run([&](double share) {
+      progress.update(share, "tracing");
+      return stop();
+    });
+    pipeline.report(stats);
+    return complete;
+  }
+  Machine machine(config, plan, scene, frame, hooks);
+  const bool complete = machine.run([&](double share, Cycles now) {
+    progress.update(share, fmt::format("cycle {}", now));
+    return stop();
+  });
+  machine.report(stats);
+  return complete;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> tree_folder(const std::string& option) {
+  if (option.empty()) return TreeCache::default_folder();
+  if (option == "none") return {};
+  return option;
+}
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+
+bool interrupted() {
+  return interrupt_seen != 0;
+}
+
+int run_frame(const FrameJob& job, ResultFolder& folder) {
+  const Config& config = job.config;
+  const HeuristicChoice heuristic = HeuristicChoice::parse(config.ray_cache.heuristic);
+  const Stopwatch load_watch;
+  LoadedScene loaded = load_scene(job.scene, load_options(config));
+  for (const std::string& warning : loaded.warnings) {
+    std::fputs(fmt::format("sheaf: note: {}\n", warning).c_str(), stderr);
+  }
+  const double load_seconds = load_watch.seconds();
+  const BuildPlan plan = plan_machine(config, loaded.scene.needs);
+  const Stopwatch build_watch;
+  std::optional<TreeCache> trees;
+  if (job.trees) trees.emplace(*job.trees);
+  const PreparedScene scene(std::move(loaded.scene), config, trees ? &*trees : nullptr);
+  const double build_seconds = build_watch.seconds();
+
+  Frame frame(config);
+  StatsTree stats;
+  stats.add_text("run.scene", job.scene_name, "Scene file");
+  stats.add_text("run.config_hash", config_hash(config), "Hash of the resolved configuration");
+  stats.add_text("run.heuristic", heuristic.to_string(), "Sorting heuristic");
+  report_scene(scene, plan, stats);
+  const std::unique_ptr<FrameGuest> guest = job.guest ? job.guest(scene, frame) : nullptr;
+  const Stopwatch run_watch;
+  const bool complete = simulate(config, plan, scene, frame, guest.get(), stats);
+  const double run_seconds = run_watch.seconds();
+  report_rays(frame.rays, stats);
+  if (config.measure.coherence && complete) {
+    CoherencePass coherence(config, scene);
+    coherence.run();
+    coherence.report(plan.secondary_rays, stats);
+  }
+  stats.add("run.complete", complete ? 1 : 0, "1", "1 if the frame is complete, 0 if partial");
+  if (guest) guest->finish(complete, stats);
+
+  const std::string summary =
+      summarize({config, plan, stats, complete, {load_seconds, build_seconds, run_seconds}});
+  folder.write("config.toml", config_toml(config, Comments::kMeanings));
+  if (job.images) write_images(config, frame, folder);
+  folder.write("summary.txt", summary);
+  folder.write("stats.json", stats_json(stats));
+  folder.commit();
+  if (!job.quiet) {
+    std::fputs(summary.c_str(), stdout);
+    std::fputs(fmt::format("Results: {}\n", folder.path().string()).c_str(), stdout);
+  }
+  if (complete) return static_cast<int>(ExitCode::kOk);
+  std::fputs("sheaf: stopped before the frame was complete; the results are marked as partial\n",
+             stderr);
+  return static_cast<int>(interrupted() ? ExitCode::kInterrupted : ExitCode::kOk);
+}
+
+}  // namespace sheaf

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "apps/frame_run.h"
+#include "apps/parent_death.h"
+#include "base/errors.h"
+#include "config/config_text.h"
+#include "config/read_config.h"
+#include "tracefile/ray_lookup.h"
+#include "tracefile/scene_hash.h"
+#include "tracefile/trace_metadata.h"
+#include "tracefile/traced_shading.h"
+
+namespace sheaf {
+namespace {
+
+/// Parameters on which the recorded rays depend.
+bool shapes_rays(std::string_view key) {
+  constexpr std::array<std::string_view, 6> kGroups{"image.width", "image.height", "scene.",
+                                                    "camera.",     "light.",       "render."};
+  return std::ranges::any_of(kGroups, [&](std::string_view g) { return key.starts_with(g); });
+}
+
+Config replay_config(const ReplayOptions& options, const TraceMetadata& metadata) {
+  const BaseConfig base{metadata.config, options.trace.string() + ", recorded configuration"};
+  const Config recorded = resolve_config_over(base, std::nullopt, {});
+  Config config = resolve_config_over(base, options.config, options.settings);
+  for (const std::string& key : changed_keys(recorded, config)) {
+    if (!shapes_rays(key)) continue;
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: the recorded rays depend on {}; leave it as it was recorded, or "
+                            "record a trace with the other value",
+                            options.trace.string(), key));
+  }
+  return config;
+}
+
+/// The trace in the shader's place.
+class RayReplay final : public FrameGuest {
+ public:
+  RayReplay(TraceReader& reader, const Config& config, const PreparedScene& scene,
+            const std::filesystem::path& file)
+      : lookup_(reader, config.image.width, config.image.height),
+        shading_(scene.scene, config.render.recursion_level, lookup_) {
+    if (scene_hash(scene.scene) == reader.identity().scene_hash) return;
+    throw Error(ExitCode::kTrace,
+                fmt::format("{}: {} is not the scene that it was recorded from; name that scene "
+                            "with --scene, or record again",
+                            reader.path().string(), file.string()));
+  }
+
+  [[nodiscard]] RunHooks hooks() override { return {&shading_}; }
+  [[nodiscard]] bool failed() const override { return shading_.failed(); }
+  void finish(bool /*complete*/, const StatsTree& /*stats*/) override { shading_.rethrow(); }
+
+ private:
+  RayLookup lookup_;
+  TracedShading shading_;
+};
+
+std::filesystem::path scene_file(const ReplayOptions& options, const TraceMetadata& metadata) {
+  if (options.scene) return *options.scene;
+  if (std::filesystem::exists(metadata.scene_path)) return metadata.scene_path;
+  throw Error(
+      ExitCode::kUsage,
+      fmt::format("{}: was recorded from {}, which is not here; name the scene with --scene",
+                  options.trace.string(), printable(metadata.scene_path)));
+}
+
+int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
+  const Config config = replay_config(options, metadata);
+  const std::filesystem::path scene = scene_file(options, metadata);
+  ResultFolder folder(options.out.empty() ? "result/replay" : options.out);
+  FrameJob job{config, scene, metadata.scene_name, false, options.quiet, {}};
+  job.trees = tree_folder(options.cache);
+  job.guest = [&](const PreparedScene& prepared, Frame& /*frame*/) {
+    return std::make_unique<RayReplay>(reader, config, prepared, scene);
+  };
+  return run_frame(job, folder);
+}
+
+}  // namespace
+
+int replay_command(const ReplayOptions& options) {
+  if (options.parent) end_with_parent(*options.parent);
+  catch_interrupts();
+  TraceReader reader(options.trace);
+  reader.verify();
+  const TraceMetadata metadata = read_metadata(reader);
+  reader.require(TraceKind::kRays, "this replay");
+  return replay_rays(options, reader, metadata);
+}
+
+}  // namespace sheaf

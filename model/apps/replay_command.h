@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sheaf {
+
+struct ReplayOptions {
+  std::filesystem::path trace;
+  std::optional<std::filesystem::path> scene;   ///< rays: instead of where it was recorded
+  std::optional<std::filesystem::path> config;  ///< over the recorded configuration
+  std::vector<std::string> settings;            ///< key=value, in order, over both
+  std::filesystem::path out;                    ///< empty: result/replay
+  std::string cache;                            ///< see tree_folder()
+  bool quiet = false;                           ///< no summary on standard output
+  std::optional<int> parent;                    ///< process with which the replay is to end
+};
+
+/// `sheaf replay`: runs a trace on another machine. Returns an exit code; throws Error for what the
+/// user can mend.
+int replay_command(const ReplayOptions& options);
+
+}  // namespace sheaf

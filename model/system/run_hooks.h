@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shading/shading_source.h"
+
+namespace sheaf {
+
+/// What a run may be given from outside: nothing, for a plain one.
+struct RunHooks {
+  ShadingSource* shading = nullptr;  ///< instead of computing it from the scene
+};
+
+}  // namespace sheaf

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracefile/container.h"
+
+struct ZSTD_CCtx_s;
+
+namespace sheaf {
+
+/// Writes a trace frame by frame under a temporary name and renames it when it is whole. Keeps only
+/// the index in memory, 32 bytes a frame.
+///
+/// Called from within a simulation, where exceptions have nowhere to go: a failure to write is
+/// remembered, what follows is dropped, and finish() throws. Poll failed() to stop early.
+class TraceWriter {
+ public:
+  /// Throws Error(kOutput) if the file cannot be made.
+  TraceWriter(std::filesystem::path path, const TraceIdentity& identity);
+  /// Removes the temporary file, unless finish() has been called.
+  ~TraceWriter();
+  TraceWriter(const TraceWriter&) = delete;
+  TraceWriter& operator=(const TraceWriter&) = delete;
+
+  /// Compresses and writes one data frame; `raw` is at most kMaxFrameBytes.
+  void add(std::uint64_t key, std::uint32_t num_records, ByteSpan raw);
+
+  [[nodiscard]] bool failed() const { return error_ != 0; }
+
+  /// Writes metadata (a JSON object as text), index and trailer, and gives the file its name.
+  /// Throws Error(kOutput), with no file left, if anything could not be written.
+  void finish(const std::string& metadata);
+
+  /// Bytes written so far.
+  [[nodiscard]] std::uint64_t num_bytes() const { return offset_; }
+
+ private:
+  void write(ByteSpan bytes);
+  void add_frame(FrameType type, std::uint64_t key, std::uint32_t num_records, ByteSpan raw);
+  void close();
+  [[noreturn]] void refuse() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::FILE* file_ = nullptr;
+  std::unique_ptr<ZSTD_CCtx_s, std::size_t (*)(ZSTD_CCtx_s*)> zstd_;
+  ByteVector stored_;
+  std::vector<TraceFrame> frames_;
+  std::uint64_t offset_ = 0;
+  std::uint64_t num_records_ = 0;
+  int error_ = 0;  ///< errno of the first failure
+  bool finished_ = false;
+};
+
+}  // namespace sheaf

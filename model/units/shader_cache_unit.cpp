@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "units/shader_cache_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace sheaf {
+
+ShaderCacheUnit::ShaderCacheUnit(const sc_core::sc_module_name& name, const ShaderCacheSpec& spec,
+                                 const Scene& scene, PacketPool& packets, FlowControl& flow,
+                                 ClockDomain& domain)
+    : sc_module(name),
+      in_packets("in_packets"),
+      out_packets("out_packets"),
+      spec_(spec),
+      sorter_(spec, scene, packets),
+      flow_(flow),
+      domain_(domain) {
+  inbox_.bind(domain, domain.add(*this));
+  flow.bind_shader_cache(inbox_);
+}
+
+void ShaderCacheUnit::end_of_elaboration() {
+  inputs_.bind(in_packets, inbox_);
+  outputs_.bind(out_packets, inbox_);
+}
+
+Cycles ShaderCacheUnit::wake(Cycles now) {
+  for (;;) {
+    const Cycles next = act(now);
+    if (next >= domain_.horizon()) return next;
+    now = next;
+  }
+}
+
+Cycles ShaderCacheUnit::act(Cycles now) {
+  if (!send_departures(now)) {
+    stalls_.switch_to(StallCause::kBlockedOutput, now);
+    return kNever;  // woken when a shader unit has room
+  }
+  if (now < busy_until_) return busy_until_;
+  const bool worked = accept_packet(now) || sweep();
+  flow_.set_waiting_for_shader(sorter_.num_waiting());
+  if (worked) {
+    stalls_.switch_to(StallCause::kBusy, now);
+    return std::max(busy_until_, now + 1);
+  }
+  stalls_.switch_to(sorter_.num_waiting() != 0 ? StallCause::kWaitingInput : StallCause::kIdle,
+                    now);
+  return inputs_.next_arrival();
+}
+
+bool ShaderCacheUnit::send_departures(Cycles now) {
+  while (num_sent_ < departures_.size()) {
+    if (outputs_.write(departures_[num_sent_], now, true, inbox_) != Sent::kYes) return false;
+    ++num_sent_;
+  }
+  departures_.clear();
+  num_sent_ = 0;
+  return true;
+}
+
+bool ShaderCacheUnit::accept_packet(Cycles now) {
+  RayPacket* packet = nullptr;
+  if (!inputs_.read(packet, now)) return false;
+  const auto rays = static_cast<Cycles>(std::popcount(packet->active));
+  busy_until_ = now + (rays + spec_.rays_per_cycle - 1) / spec_.rays_per_cycle;
+  sorter_.insert(packet, departures_);
+  return true;
+}
+
+bool ShaderCacheUnit::sweep() {
+  flow_.set_waiting_for_shader(sorter_.num_waiting());
+  if (sorter_.num_waiting() == 0 || !flow_.is_quiet()) return false;
+  if (flow_.source() == FlowControl::Source::kIssuing) return false;
+  sorter_.sweep(departures_);
+  return true;
+}
+
+std::string ShaderCacheUnit::stuck_reason() const {
+  if (departures_.size() > num_sent_) {
+    return fmt::format("{}: {} packets blocked by full links", name(),
+                       departures_.size() - num_sent_);
+  }
+  if (sorter_.num_waiting() != 0) {
+    return fmt::format("{}: {} rays waiting in cells", name(), sorter_.num_waiting());
+  }
+  return {};
+}
+
+}  // namespace sheaf
