@@ -9,6 +9,7 @@
 #include <new>
 #include <systemc>
 
+#include "apps/memory_command.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
 #include "base/errors.h"
@@ -25,6 +26,7 @@ constexpr const char* kFooter =
 
 struct Commands {
   sheaf::RunOptions run;
+  sheaf::MemoryOptions memory;
   sheaf::ReplayOptions replay;
   std::string info_scene;
   bool schema = false;
@@ -99,6 +101,7 @@ void declare(CLI::App& app, Commands& commands) {
   declare_parent(*run, commands.run);
   run->footer(kFooter);
 
+  sheaf::declare_memory_command(app, commands.memory);
   declare_replay(app, commands.replay);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
@@ -124,6 +127,7 @@ std::string config_output(const Commands& commands) {
 
 int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
+  if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("config")) {

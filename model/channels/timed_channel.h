@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <systemc>
 #include <vector>
 
@@ -107,6 +108,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
     }
     at(position) = entry;
     ++num_written_;
+    if (!recent_reads_.empty() && ready < recent_reads_.back().time) count_late(ready);
     if (position == 0) {
       update_head();
       this->consumer_->expect(this->next_arrival_);
@@ -125,7 +127,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   T read(Cycles now) {
-    note_occupancy(now);
+    if (spec_.capacity != kUnbounded || size_ > max_size_) note_occupancy(now);
     const T value = ring_[head_].value;
     last_arrival_ = this->next_arrival_;
     head_ = (head_ + 1) & (ring_.size() - 1);
@@ -160,6 +162,10 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
       return ready != other.ready ? ready < other.ready : rank < other.rank;
     }
   };
+  struct Read {
+    Cycles time = 0;
+    std::size_t held = 0;  ///< values held when it happened
+  };
   static constexpr std::size_t kFirstSlots = 16;
   // Values go one way, credits the other.
   void declare_links(std::size_t producer) {
@@ -192,11 +198,21 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   [[nodiscard]] Entry& at(std::size_t position) {
     return ring_[(head_ + position) & (ring_.size() - 1)];
   }
-  // Values that a producer ahead in time has written do not count yet.
+  // Values that a producer ahead in time has written do not count yet; those that one behind in
+  // time writes later are counted then.
   void note_occupancy(Cycles now) {
     std::size_t held = size_;
-    while (held > max_size_ && at(held - 1).ready >= now) --held;
-    if (held > max_size_) max_size_ = held;
+    while (held != 0 && at(held - 1).ready >= now) --held;
+    max_size_ = std::max(max_size_, held);
+    // What is still unwritten cannot arrive before now, so it is not written earlier than this.
+    const auto settled = [&](const Read& read) { return read.time + spec_.latency <= now; };
+    std::erase_if(recent_reads_, settled);
+    recent_reads_.push_back({now, held});
+  }
+  void count_late(Cycles ready) {
+    for (Read& read : recent_reads_) {
+      if (ready < read.time) max_size_ = std::max(max_size_, ++read.held);
+    }
   }
   void update_head() {
     this->next_arrival_ = kNever;
@@ -220,6 +236,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   std::size_t head_ = 0;
   std::size_t size_ = 0;
   std::size_t max_size_ = 0;
+  std::vector<Read> recent_reads_;
   std::vector<Cycles> returning_;  ///< ring: when the producer learns of reads
   std::size_t first_returning_ = 0;
   std::size_t num_returning_ = 0;

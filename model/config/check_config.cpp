@@ -12,6 +12,7 @@
 
 #include "base/errors.h"
 #include "config/config_text.h"
+#include "config/dram/device.h"
 #include "config/quantities.h"
 
 namespace sheaf {
@@ -66,6 +67,7 @@ void check_memory(const Config& c) {
   check_private_cache("attribute_cache", c.attribute_cache, c.l2);
   check_private_cache("texture_cache", c.texture_cache, c.l2);
   check_private_cache("film_cache", c.film_cache, c.l2);
+  if (c.dram.model != DramModel::kFixed) static_cast<void>(resolve_dram(c.dram));
 }
 
 void check_flow(const Config& c) {

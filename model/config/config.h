@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/units.h"
+#include "config/dram/settings.h"
 
 namespace sheaf {
 
@@ -136,11 +137,6 @@ struct L2Spec {
   Bytes capacity{}, line{};
   std::uint32_t ways{}, banks{}, mshrs{};
   Cycles hit_latency{};
-};
-
-struct DramSpec {
-  Cycles latency{};
-  Bytes bytes_per_cycle{};
 };
 
 struct FilmSpec {

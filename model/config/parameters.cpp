@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/parameters.h"
 
+#include "config/dram/parameters.h"
+
 namespace sheaf {
 namespace {
 
@@ -195,10 +197,7 @@ void declare_memory(ParameterTable& t, Config& c) {
   t.count("l2.mshrs", c.l2.mshrs, 16, 1, 4096, "lines", "Lines outstanding in one bank");
   t.count("l2.hit_latency", c.l2.hit_latency, 12, 1, kMaxLatency, "cycles",
           "From a bank's acceptance to the data");
-  t.count("dram.latency", c.dram.latency, 100, 1, kMaxLatency, "cycles",
-          "From a request's arrival to its first data, unloaded");
-  t.bytes("dram.bytes_per_cycle", c.dram.bytes_per_cycle, 16, 1, 65536,
-          "Bytes of bandwidth per core cycle");
+  declare_dram(t, c.dram);
 }
 
 void declare_tree_and_measures(ParameterTable& t, Config& c) {

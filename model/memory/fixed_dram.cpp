@@ -8,9 +8,7 @@ namespace sheaf {
 
 FixedDram::FixedDram(const sc_core::sc_module_name& name, const DramSpec& spec,
                      const sc_core::sc_time& period)
-    : sc_module(name), from_cache("from_cache"), spec_(spec), period_(period) {
-  from_cache.register_nb_transport_fw(this, &FixedDram::nb_transport_fw);
-}
+    : MainMemory(name), spec_(spec), period_(period) {}
 
 tlm::tlm_sync_enum FixedDram::nb_transport_fw(tlm::tlm_generic_payload& payload,
                                               tlm::tlm_phase& phase, sc_core::sc_time& delay) {

@@ -48,8 +48,16 @@ void L2Cache::end_of_elaboration() {
   }
 }
 
+void L2Cache::expect_answers_from(std::size_t memory) {
+  memories_.push_back(memory);
+  domain_.declare_link(memory, agent_, 1);
+  domain_.declare_link(agent_, memory, 1);
+}
+
 void L2Cache::start_of_simulation() {
-  requests_ahead_.bind(domain_, in_requests->producers(), agent_);
+  std::vector<std::size_t> sources = in_requests->producers();
+  sources.insert(sources.end(), memories_.begin(), memories_.end());
+  requests_ahead_.bind(domain_, sources, agent_);
 }
 
 Cycles L2Cache::wake(Cycles now) {
@@ -58,7 +66,7 @@ Cycles L2Cache::wake(Cycles now) {
   return next_event(lag_);
 }
 
-// Whether no request that may still come can arrive before the event or with it.
+// Whether nothing that may still come can arrive before the event or with it.
 bool L2Cache::is_safe(Cycles event, Cycles now) const {
   if (event <= now) return true;
   if (domain_.in_step() || event >= domain_.limit() || event >= domain_.end()) return false;

@@ -65,6 +65,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedOut<LineResponse>, 0> out_responses;
   tlm_utils::simple_initiator_socket<L2Cache> to_dram;
 
+  /// A memory that is an agent of the domain and answers later, a cycle after it acts at the
+  /// earliest; to be told before the simulation starts.
+  void expect_answers_from(std::size_t memory);
+
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
@@ -132,7 +136,8 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   std::size_t agent_;
   const Cycles lag_;
   Inbox inbox_;
-  Lookahead requests_ahead_;
+  std::vector<std::size_t> memories_;  ///< agents that answer later
+  Lookahead requests_ahead_;           ///< and fills
   unsigned line_shift_;
   unsigned bank_shift_;
   std::vector<Bank> banks_;

@@ -90,7 +90,7 @@ void Machine::check_conservation() const {
   if (spawn_router_) check_stalls("spawn_router", *spawn_router_, end_);
 
   const L2Stats& l2 = l2_->stats();
-  const DramStats& dram = dram_->stats();
+  const DramStats dram = dram_->stats(end_);
   require_equal(l2.num_accesses, l2.num_hits + l2.num_misses + l2.num_merges,
                 "l2: accesses = hits + misses + merges");
   require_equal(fetched, l2.bytes_requested, "bytes into the private caches = bytes out of the l2");

@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "base/errors.h"
+#include "memory/banked_dram.h"
+#include "memory/fixed_dram.h"
 #include "system/machine_links.h"
 #include "system/pipeline_parts.h"
 
@@ -60,7 +62,14 @@ void Machine::build_memory() {
       TimedChannel<LineRequest>::Spec{
           .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
   l2_ = std::make_unique<L2Cache>("l2", config_.l2, domain_);
-  dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
+  if (config_.dram.model == DramModel::kFixed) {
+    dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
+  } else {
+    auto banked = std::make_unique<BankedDram>("dram", resolve_dram(config_.dram),
+                                               config_.clock.frequency, domain_);
+    l2_->expect_answers_from(banked->agent());
+    dram_ = std::move(banked);
+  }
   l2_->in_requests(*links_->caches_to_l2);
   l2_->to_dram.bind(dram_->from_cache);
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "channels/clock_domain.h"
-#include "memory/fixed_dram.h"
 #include "memory/l2_cache.h"
+#include "memory/main_memory.h"
 #include "stats/report_tree.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
@@ -89,7 +89,7 @@ class Machine {
   std::unique_ptr<ShaderCacheUnit> shader_cache_;
   std::unique_ptr<FilmUnit> film_;
   std::unique_ptr<L2Cache> l2_;
-  std::unique_ptr<FixedDram> dram_;
+  std::unique_ptr<MainMemory> dram_;
   Cycles end_ = 0;
   bool complete_ = false;
 };

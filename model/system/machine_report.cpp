@@ -130,13 +130,15 @@ void Machine::report_memory(StatsTree& stats) const {
     const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
     stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
   }
-  stats.add_counters("system.dram", dram_->stats());
+  const DramStats dram = dram_->stats(end_);
+  stats.add_counters("system.dram", dram);
   const auto rays = static_cast<double>(frame_.rays.total().retired);
   stats.add_ratio("system.dram.bytes_per_ray",
-                  static_cast<double>(dram_->stats().bytes_read + dram_->stats().bytes_written),
-                  rays, "bytes", "Bytes moved to and from DRAM per ray");
-  stats.add_ratio("system.dram.bus_utilization", dram_->stats().bus_busy_cycles, end_, "1",
+                  static_cast<double>(dram.bytes_read + dram.bytes_written), rays, "bytes",
+                  "Bytes moved to and from DRAM per ray");
+  stats.add_ratio("system.dram.bus_utilization", dram.bus_busy_cycles, end_, "1",
                   "Share of cycles in which the data bus moved data");
+  dram_->report_details("system.dram", end_, stats);
 }
 
 }  // namespace sheaf

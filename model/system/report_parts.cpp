@@ -9,8 +9,9 @@
 #include <cctype>
 
 #include "kdtree/kd_stats.h"
-#include "memory/fixed_dram.h"
+#include "memory/dram/channel_stats.h"
 #include "memory/l2_cache.h"
+#include "memory/main_memory.h"
 #include "system/coherence.h"
 #include "units/film_unit.h"
 #include "units/packet_arbiter.h"
@@ -126,6 +127,8 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"system.l2", "Shared second-level cache", L2Stats::infos()},
       CounterGroup{"system.l2.<kind of data>", "The same by kind of data", L2KindStats::infos()},
       CounterGroup{"system.dram", "Memory behind the TLM socket", DramStats::infos()},
+      CounterGroup{"system.dram.channels", "Only with banks (dram.model): all channels together",
+                   DramChannelStats::infos()},
   };
   return kGroups;
 }

@@ -39,6 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"shader_unit.initiation_interval=100", "link.depth=1"},
                     Settings{"link.memory_latency=1"}, Settings{"link.latency=1"},
                     Settings{"node_cache.mshrs=1", "triangle_cache.mshrs=1", "l2.mshrs=1"},
+                    Settings{"dram.model=DDR4-2400"},
+                    Settings{"dram.model=HBM2-2000", "l2.capacity=64KiB", "film_cache.line=16"},
                     Settings{"shader_cache.cells=4", "shader_unit.count=2"},
                     Settings{"shader_cache.cells=2", "ray_cache.heuristic=none", "link.depth=1",
                              "link.latency=1", "flow.control=credits"},

@@ -129,5 +129,16 @@ TEST_F(ChannelTest, KeepsOrderWhileItsRingGrows) {
   EXPECT_EQ(next_read, 1000);
 }
 
+TEST_F(ChannelTest, OccupancyCountsWhatAProducerBehindInTimeWritesLater) {
+  const auto channel = make({.capacity = 8, .latency = 4});
+  channel->nb_write(1, 10);
+  channel->read(14);
+  EXPECT_EQ(channel->max_size(), 1U);
+  channel->write_ahead(2, 14);  // of the cycle of the read: not held before it
+  EXPECT_EQ(channel->max_size(), 1U);
+  channel->write_ahead(3, 13);
+  EXPECT_EQ(channel->max_size(), 2U);
+}
+
 }  // namespace
 }  // namespace sheaf::test
