@@ -19,6 +19,7 @@
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
 #include "system/report_parts.h"
+#include "system/reported_values.h"
 
 namespace sheaf {
 namespace {
@@ -123,9 +124,9 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
 
   Frame frame(config);
   StatsTree stats;
-  stats.add_text("run.scene", job.scene_name, "Scene file");
-  stats.add_text("run.config_hash", config_hash(config), "Hash of the resolved configuration");
-  stats.add_text("run.heuristic", heuristic.to_string(), "Sorting heuristic");
+  stats.add_text("run", RunValues::scene, job.scene_name);
+  stats.add_text("run", RunValues::config_hash, config_hash(config));
+  stats.add_text("run", RunValues::heuristic, heuristic.to_string());
   report_scene(scene, plan, stats);
   const std::unique_ptr<FrameGuest> guest = job.guest ? job.guest(scene, frame) : nullptr;
   const Stopwatch run_watch;
@@ -137,7 +138,7 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
     coherence.run();
     coherence.report(plan.secondary_rays, stats);
   }
-  stats.add("run.complete", complete ? 1 : 0, "1", "1 if the frame is complete, 0 if partial");
+  stats.add("run", RunValues::complete, complete ? 1 : 0);
   if (guest) guest->finish(complete, stats);
 
   const std::string summary =

@@ -57,8 +57,8 @@ std::string unknown_key(const ParameterTable& table, std::string_view key) {
   if (key.size() <= kLongestKey) {
     const auto nearest = std::ranges::min_element(
         table.parameters(), {}, [&](const Parameter& p) { return key_distance(key, p.key); });
-    // Beyond half of its letters a guess helps nobody.
-    if (key_distance(key, nearest->key) <= key.size() / 2) {
+    // Beyond a third of its letters a guess helps nobody.
+    if (key_distance(key, nearest->key) <= key.size() / 3) {
       return fmt::format("{}; did you mean '{}'?", told, nearest->key);
     }
   }

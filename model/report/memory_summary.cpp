@@ -66,7 +66,7 @@ std::string energy_part(const TraceRun& run) {
   const auto items = dram_energy(run.device(), result.channels, result.end);
   TextTable table({Align::kLeft, Align::kRight});
   for (const DramEnergyItem& item : items) {
-    table.add_row({std::string(item.name),
+    table.add_row({std::string(item.what.name),
                    item.picojoule ? fmt::format("{:.3f} uJ", *item.picojoule / 1e6) : "unknown"});
   }
   const double known = known_energy(items);

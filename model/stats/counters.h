@@ -36,4 +36,17 @@ struct CounterInfo {
     [[nodiscard]] bool operator==(const Struct&) const = default;                                  \
   }
 
+// SHEAF_VALUES(Struct, LIST) declares from such a list what is reported but not counted: a
+// CounterInfo of each name.
+#define SHEAF_VALUES_MEMBER(name, unit, meaning) \
+  static constexpr ::sheaf::CounterInfo name{#name, unit, meaning};
+#define SHEAF_VALUES(Struct, LIST)                                               \
+  struct Struct {                                                                \
+    LIST(SHEAF_VALUES_MEMBER)                                                    \
+    [[nodiscard]] static std::span<const ::sheaf::CounterInfo> infos() {         \
+      static constexpr ::sheaf::CounterInfo kInfos[] = {LIST(SHEAF_STATS_INFO)}; \
+      return kInfos;                                                             \
+    }                                                                            \
+  }
+
 }  // namespace sheaf

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "stats/counters.h"
+
 namespace sheaf {
 
 class StatsTree;
@@ -71,5 +73,12 @@ using FillHistogram = Histogram<LinearBins>;
 template <typename Binning>
 void add_histogram(StatsTree& tree, std::string_view path, const Histogram<Binning>& histogram,
                    std::string_view what, std::string_view unit, std::string_view meaning);
+
+/// What add_histogram() adds, for `sheaf counters`.
+inline constexpr CounterInfo kHistogramInfos[] = {
+    {"num", "", "How many"},
+    {"mean", "", "Mean"},
+    {"max", "", "Greatest"},
+    {"bin_<n>", "", "How many from n up to the next bin; left out if none"}};
 
 }  // namespace sheaf

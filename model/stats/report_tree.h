@@ -43,6 +43,22 @@ class StatsTree {
 
   void add_text(std::string path, std::string value, std::string_view meaning);
 
+  // The same of a declared value, as `prefix.name`.
+  void add(std::string_view prefix, const CounterInfo& info, std::uint64_t value) {
+    add(path_of(prefix, info), value, info.unit, info.meaning);
+  }
+  void add_real(std::string_view prefix, const CounterInfo& info, double value) {
+    add_real(path_of(prefix, info), value, info.unit, info.meaning);
+  }
+  template <typename Number>
+  void add_ratio(std::string_view prefix, const CounterInfo& info, Number numerator,
+                 Number denominator) {
+    add_ratio(path_of(prefix, info), numerator, denominator, info.unit, info.meaning);
+  }
+  void add_text(std::string_view prefix, const CounterInfo& info, std::string value) {
+    add_text(path_of(prefix, info), std::move(value), info.meaning);
+  }
+
   /// Every counter of a SHEAF_STATS struct or a StallAccount as `prefix.name`.
   template <typename Stats>
   void add_counters(std::string_view prefix, const Stats& stats) {
@@ -60,6 +76,9 @@ class StatsTree {
   [[nodiscard]] std::uint64_t count(const std::string& path) const;
 
  private:
+  static std::string path_of(std::string_view prefix, const CounterInfo& info) {
+    return std::string(prefix) + '.' + std::string(info.name);
+  }
   void add_quotient(std::string path, double numerator, double denominator, std::string_view unit,
                     std::string_view meaning);
   void add_entry(StatsEntry entry);

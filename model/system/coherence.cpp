@@ -3,6 +3,7 @@
 #include "system/coherence.h"
 
 #include "shading/packet_shader.h"
+#include "system/reported_values.h"
 #include "units/primary_source.h"
 
 namespace sheaf {
@@ -79,10 +80,8 @@ void CoherencePass::trace(RayPacket& packet, Scope& scope) {
 void CoherencePass::report(bool has_secondary, StatsTree& stats) const {
   const auto add = [&](const std::string& path, const CoherenceCounts& counts) {
     stats.add_counters(path, counts);
-    stats.add_ratio(path + ".c_t", counts.s_t, counts.s_u, "1",
-                    "Visits of an inner node per distinct node of a scope");
-    stats.add_ratio(path + ".c_i", counts.i_t, counts.i_u, "1",
-                    "Tests of a triangle per distinct triangle of a scope");
+    stats.add_ratio(path, CoherenceValues::c_t, counts.s_t, counts.s_u);
+    stats.add_ratio(path, CoherenceValues::c_i, counts.i_t, counts.i_u);
   };
   add("coherence.primary", primary_.counts);
   if (has_secondary) add("coherence.secondary", secondary_.counts);

@@ -5,24 +5,20 @@
 #include "system/machine.h"
 #include "system/machine_links.h"
 #include "system/report_parts.h"
+#include "system/reported_values.h"
 
 namespace sheaf {
 
 void Machine::report(StatsTree& stats) const {
   const double seconds = static_cast<double>(end_) / config_.clock.frequency;
-  stats.add("system.cycles", end_, "cycles", "Length of the run");
-  stats.add_real("system.seconds", seconds, "s", "Length of the run in simulated time");
-  stats.add_ratio("system.frames_per_second", complete_ ? 1.0 : 0.0, seconds, "1/s",
-                  "Frames per second of simulated time; 0 for a partial frame");
+  stats.add("system", SystemValues::cycles, end_);
+  stats.add_real("system", SystemValues::seconds, seconds);
+  stats.add_ratio("system", SystemValues::frames_per_second, complete_ ? 1.0 : 0.0, seconds);
   const auto rays = static_cast<double>(frame_.rays.total().retired);
-  stats.add_ratio("system.rays_per_cycle", rays, static_cast<double>(end_), "rays",
-                  "Rays retired per cycle");
-  stats.add("system.max_rays_in_flight", flow_.max_live(), "rays",
-            "Most rays in the loop at a time, those in the ray cache included");
-  stats.add("system.packets_made", packets_.num_made(), "packets",
-            "Most packets in flight at a time");
-  stats.add("system.num_wakes", domain_.num_wakes(), "events",
-            "Times a unit was woken: the simulator's own work");
+  stats.add_ratio("system", SystemValues::rays_per_cycle, rays, static_cast<double>(end_));
+  stats.add("system", SystemValues::max_rays_in_flight, flow_.max_live());
+  stats.add("system", SystemValues::packets_made, packets_.num_made());
+  stats.add("system", SystemValues::num_wakes, domain_.num_wakes());
   report_units(stats);
   report_links(stats);
   report_memory(stats);
@@ -75,9 +71,8 @@ void Machine::report_units(StatsTree& stats) const {
 
 void Machine::report_links(StatsTree& stats) const {
   const auto link = [&](const std::string& path, const auto& channel) {
-    stats.add(path + ".num_written", channel.num_written(), "messages", "Messages sent");
-    stats.add(path + ".max_occupancy", channel.max_size(), "messages",
-              "Most messages on the way or waiting at a time");
+    stats.add(path, LinkValues::num_written, channel.num_written());
+    stats.add(path, LinkValues::max_occupancy, channel.max_size());
   };
   link("system.link.source_to_arbiter", *links_->source_to_arbiter);
   if (links_->packet_fifo) link("system.packet_fifo", *links_->packet_fifo);
@@ -101,8 +96,7 @@ void Machine::report_memory(StatsTree& stats) const {
   const auto cache = [&](const std::string& path, const PrivateCache& module) {
     const CacheStats& counters = module.stats();
     stats.add_counters(path, counters);
-    stats.add_ratio(path + ".hit_rate", counters.num_hits, counters.num_accesses, "1",
-                    "Hits per access; merges are no hits");
+    stats.add_ratio(path, CacheValues::hit_rate, counters.num_hits, counters.num_accesses);
     for (std::size_t i = 0; i < kNumDataKinds; ++i) {
       const auto kind = static_cast<DataKind>(i);
       if (module.kind_stats(kind).num_accesses == 0) continue;
@@ -124,8 +118,8 @@ void Machine::report_memory(StatsTree& stats) const {
   }
   cache("system.film.cache", film_->cache());
   stats.add_counters("system.l2", l2_->stats());
-  stats.add_ratio("system.l2.hit_rate", l2_->stats().num_hits, l2_->stats().num_accesses, "1",
-                  "Hits per request; merges are no hits");
+  stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
+                  l2_->stats().num_accesses);
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
     const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
     stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
@@ -133,11 +127,9 @@ void Machine::report_memory(StatsTree& stats) const {
   const DramStats dram = dram_->stats(end_);
   stats.add_counters("system.dram", dram);
   const auto rays = static_cast<double>(frame_.rays.total().retired);
-  stats.add_ratio("system.dram.bytes_per_ray",
-                  static_cast<double>(dram.bytes_read + dram.bytes_written), rays, "bytes",
-                  "Bytes moved to and from DRAM per ray");
-  stats.add_ratio("system.dram.bus_utilization", dram.bus_busy_cycles, end_, "1",
-                  "Share of cycles in which the data bus moved data");
+  stats.add_ratio("system.dram", MainMemoryValues::bytes_per_ray,
+                  static_cast<double>(dram.bytes_read + dram.bytes_written), rays);
+  stats.add_ratio("system.dram", MainMemoryValues::bus_utilization, dram.bus_busy_cycles, end_);
   dram_->report_details("system.dram", end_, stats);
 }
 

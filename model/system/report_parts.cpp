@@ -10,9 +10,11 @@
 
 #include "kdtree/kd_stats.h"
 #include "memory/dram/channel_stats.h"
+#include "memory/dram/dram_report.h"
 #include "memory/l2_cache.h"
 #include "memory/main_memory.h"
 #include "system/coherence.h"
+#include "system/reported_values.h"
 #include "units/film_unit.h"
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
@@ -24,10 +26,8 @@ namespace {
 
 void report_trace(const std::string& path, const TraceCounts& counts, StatsTree& stats) {
   stats.add_counters(path, counts);
-  stats.add_ratio(path + ".p_t", counts.lane_inner_visits, counts.packet_inner_visits, "1",
-                  "Inner nodes visited by the rays, each traced alone, per node visit of a packet");
-  stats.add_ratio(path + ".p_i", counts.lane_triangle_tests, counts.packet_triangle_tests, "1",
-                  "Triangle tests of the rays, each traced alone, per test of a packet");
+  stats.add_ratio(path, TraceValues::p_t, counts.lane_inner_visits, counts.packet_inner_visits);
+  stats.add_ratio(path, TraceValues::p_i, counts.lane_triangle_tests, counts.packet_triangle_tests);
 }
 
 constexpr std::array<std::string_view, kNumRayKinds> kKindNames{"primary", "reflection",
@@ -38,11 +38,9 @@ constexpr std::array<std::string_view, kNumRayKinds> kKindNames{"primary", "refl
 void report_sorter(const RaySorter& sorter, const std::string& path, StatsTree& stats) {
   const RayCacheStats& counters = sorter.stats();
   stats.add_counters(path, counters);
-  stats.add_ratio(path + ".hit_rate", counters.num_hits, counters.num_insertions, "1",
-                  "Rays that met an open cell, per ray");
+  stats.add_ratio(path, SorterValues::hit_rate, counters.num_hits, counters.num_insertions);
   const std::uint64_t packets = counters.num_packets();
-  stats.add_ratio(path + ".mean_cell_residence", counters.sum_cell_residence, packets, "cycles",
-                  "Mean time from a cell's opening to its departure");
+  stats.add_ratio(path, SorterValues::mean_cell_residence, counters.sum_cell_residence, packets);
   add_histogram(stats, path + ".fill", sorter.fill(), "packets", "rays",
                 "Rays in a packet that left the ray cache");
 }
@@ -50,14 +48,11 @@ void report_sorter(const RaySorter& sorter, const std::string& path, StatsTree& 
 void report_shading_sorter(const ShadingSorter& sorter, const std::string& path, StatsTree& stats) {
   const ShaderCacheStats& counters = sorter.stats();
   stats.add_counters(path, counters);
-  stats.add_ratio(path + ".hit_rate", counters.num_hits, counters.num_insertions, "1",
-                  "Rays that met an open cell, per ray");
-  stats.add_ratio(path + ".rays_per_material_in", counters.num_insertions,
-                  counters.sum_materials_in, "rays",
-                  "Rays to be shaded per material of a packet, before sorting");
-  stats.add_ratio(path + ".rays_per_material_out", counters.num_insertions,
-                  counters.sum_materials_out, "rays",
-                  "Rays to be shaded per material of a packet, after sorting");
+  stats.add_ratio(path, ShadingSorterValues::hit_rate, counters.num_hits, counters.num_insertions);
+  stats.add_ratio(path, ShadingSorterValues::rays_per_material_in, counters.num_insertions,
+                  counters.sum_materials_in);
+  stats.add_ratio(path, ShadingSorterValues::rays_per_material_out, counters.num_insertions,
+                  counters.sum_materials_out);
 }
 
 void report_traces(const TraceCounts& primary, const TraceCounts& secondary, bool has_secondary,
@@ -68,34 +63,32 @@ void report_traces(const TraceCounts& primary, const TraceCounts& secondary, boo
 
 void report_rays(const RayCounts& rays, StatsTree& stats) {
   const RayCounts::Entry total = rays.total();
-  stats.add("rays.num_spawned", total.spawned, "rays", "Rays of all kinds and depths");
-  stats.add("rays.num_retired", total.retired, "rays", "Rays traced and shaded");
-  stats.add("rays.num_hits", total.hits, "rays", "Rays that hit something");
+  stats.add("rays", RayValues::num_spawned, total.spawned);
+  stats.add("rays", RayValues::num_retired, total.retired);
+  stats.add("rays", RayValues::num_hits, total.hits);
   for (std::size_t depth = 0; depth < rays.by_depth().size(); ++depth) {
     for (std::size_t kind = 0; kind < kNumRayKinds; ++kind) {
       const RayCounts::Entry& entry = rays.by_depth()[depth][kind];
       if (entry.spawned == 0) continue;
       const std::string path = fmt::format("rays.{}.depth{}", kKindNames[kind], depth);
-      stats.add(path + ".num_spawned", entry.spawned, "rays", "Rays of this kind and depth");
-      stats.add(path + ".num_retired", entry.retired, "rays", "Of these, traced and shaded");
-      stats.add(path + ".num_hits", entry.hits, "rays", "Of these, hit something");
+      stats.add(path, RayValues::num_spawned, entry.spawned);
+      stats.add(path, RayValues::num_retired, entry.retired);
+      stats.add(path, RayValues::num_hits, entry.hits);
     }
   }
 }
 
 void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& stats) {
-  stats.add("scene.triangles", scene.scene.triangles.size(), "triangles",
-            "Triangles after instancing");
-  stats.add("scene.vertices", scene.scene.positions.size(), "vertices", "Vertices");
-  stats.add("scene.materials", scene.scene.materials.size(), "materials", "Materials in use");
-  stats.add("scene.lights", scene.scene.lights.size(), "lights", "Lights");
+  stats.add("scene", SceneValues::triangles, scene.scene.triangles.size());
+  stats.add("scene", SceneValues::vertices, scene.scene.positions.size());
+  stats.add("scene", SceneValues::materials, scene.scene.materials.size());
+  stats.add("scene", SceneValues::lights, scene.scene.lights.size());
   const KdStats tree = measure_kd_tree(scene.tree, 1.0, 1.0);
-  stats.add("kdtree.nodes", tree.num_nodes, "nodes", "Nodes of the kd-tree");
-  stats.add("kdtree.leaves", tree.num_leaves, "leaves", "Leaves of the kd-tree");
-  stats.add("kdtree.references", tree.num_references, "triangles", "Entries in all leaf lists");
-  stats.add("kdtree.depth", static_cast<std::uint64_t>(tree.depth), "nodes", "Longest path");
-  stats.add("memory.footprint", scene.memory.total_size(), "bytes",
-            "Simulated memory that tree, triangles, attributes, textures and frame buffer take");
+  stats.add("kdtree", KdTreeValues::nodes, tree.num_nodes);
+  stats.add("kdtree", KdTreeValues::leaves, tree.num_leaves);
+  stats.add("kdtree", KdTreeValues::references, tree.num_references);
+  stats.add("kdtree", KdTreeValues::depth, static_cast<std::uint64_t>(tree.depth));
+  stats.add("memory", MemoryValues::footprint, scene.memory.total_size());
   for (const auto& [what, why] : plan.left_out) {
     std::string name = what;
     std::replace_if(
@@ -107,26 +100,51 @@ void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& 
 
 std::span<const CounterGroup> counter_groups() {
   static const std::array kGroups{
+      CounterGroup{"run", "What was run", RunValues::infos()},
+      CounterGroup{"scene", "What the scene holds", SceneValues::infos()},
+      CounterGroup{"kdtree", "Its kd-tree", KdTreeValues::infos()},
+      CounterGroup{"memory", "Simulated memory", MemoryValues::infos()},
+      CounterGroup{"left_out.<part>", "Why this part was not built", {}},
+      CounterGroup{"rays", "All rays", RayValues::infos()},
+      CounterGroup{"rays.<kind>.depth<n>", "Rays of a kind and depth", RayValues::infos()},
+      CounterGroup{"system", "The machine as a whole", SystemValues::infos()},
+      CounterGroup{"system.link.<link>, system.packet_fifo", "Links between units",
+                   LinkValues::infos()},
       CounterGroup{"system.primary_source", "Camera rays", PrimarySourceStats::infos()},
       CounterGroup{"system.packet_arbiter", "Choice of the next packet", ArbiterStats::infos()},
       CounterGroup{"system.ray_cache", "Left out for the heuristic none", RayCacheStats::infos()},
+      CounterGroup{"system.ray_cache", "Formulas of these", SorterValues::infos()},
+      CounterGroup{"system.ray_cache.fill", "Rays in a packet that left the ray cache",
+                   kHistogramInfos},
       CounterGroup{"system.spawn_router", "Only for the heuristic none", SpawnRouterStats::infos()},
       CounterGroup{"system.shader_cache", "Only with shader_cache.cells",
                    ShaderCacheStats::infos()},
+      CounterGroup{"system.shader_cache", "Formulas of these", ShadingSorterValues::infos()},
       CounterGroup{"system.<unit><n>", "Traversal, intersection and shader units",
                    PipelineStats::infos()},
       CounterGroup{"system.<unit>", "Every unit: what each cycle went to", kStallInfos},
       CounterGroup{"trace.primary, trace.secondary", "Work of the packets", TraceCounts::infos()},
+      CounterGroup{"trace.primary, trace.secondary", "Formulas of these", TraceValues::infos()},
       CounterGroup{"coherence.primary, coherence.secondary",
                    "Only with measure.coherence: one untimed pass of single rays",
                    CoherenceCounts::infos()},
+      CounterGroup{"coherence.primary, coherence.secondary", "Formulas of these",
+                   CoherenceValues::infos()},
       CounterGroup{"system.film", "Frame buffer", FilmStats::infos()},
-      CounterGroup{"system.<unit><n>.<cache>", "Private caches", CacheStats::infos()},
-      CounterGroup{"system.<unit><n>.<cache>.<kind of data>", "The same by kind of data",
-                   CacheKindStats::infos()},
+      CounterGroup{"system.<unit><n>.<cache>, system.film.cache", "Private caches",
+                   CacheStats::infos()},
+      CounterGroup{"system.<unit><n>.<cache>, system.film.cache, system.l2", "Formulas of these",
+                   CacheValues::infos()},
+      CounterGroup{"system.<unit><n>.<cache>.<kind of data>, system.film.cache.<kind of data>",
+                   "The same by kind of data", CacheKindStats::infos()},
       CounterGroup{"system.l2", "Shared second-level cache", L2Stats::infos()},
       CounterGroup{"system.l2.<kind of data>", "The same by kind of data", L2KindStats::infos()},
       CounterGroup{"system.dram", "Memory behind the TLM socket", DramStats::infos()},
+      CounterGroup{"system.dram", "Formulas of these", MainMemoryValues::infos()},
+      CounterGroup{"system.dram", "Memory with banks only", BankedMemoryValues::infos()},
+      CounterGroup{"system.dram.channels", "The same: all channels", DramChannelStats::infos()},
+      CounterGroup{"system.dram.energy", "The same: energy, none where no source gives it",
+                   DramEnergyValues::infos()},
       CounterGroup{"system.dram.channels", "Only with banks (dram.model): all channels together",
                    DramChannelStats::infos()},
   };

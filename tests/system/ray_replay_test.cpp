@@ -95,7 +95,7 @@ TEST_P(RayTrace, IsRefusedOnAnotherScene) {
 
 TEST_P(RayTrace, IsRefusedWithParametersThatShapeItsRays) {
   for (const char* setting : {"image.width=41", "render.recursion_level=3", "scene.reflectance=0.5",
-                              "light.intensity=3"}) {
+                              "light.position=[0, 1, 0]"}) {
     const CommandResult result = replay({setting});
     EXPECT_EQ(result.exit_code, 2) << setting;
     EXPECT_NE(result.err.find("the recorded rays depend on"), std::string::npos) << result.err;

@@ -23,15 +23,14 @@ std::vector<DramEnergyItem> dram_energy(const DramDevice& device, const DramChan
   const auto standby = [&](const std::optional<double>& milliwatt, std::uint64_t cycles) {
     return milliwatt ? times(*milliwatt * ns, cycles) : std::nullopt;  // mW x ns = pJ
   };
-  return {{"activate_precharge", times(table.activate_precharge_pj, counts.num_activates),
-           "Rows opened and closed"},
-          {"read", times(table.read_pj, counts.num_read_bursts), "Bursts read"},
-          {"write", times(table.write_pj, counts.num_write_bursts), "Bursts written"},
-          {"refresh", times(table.refresh_pj, counts.num_refreshes), "Refreshes of all banks"},
-          {"active_standby", standby(table.active_standby_mw, counts.active_cycles),
-           "Standby with a row open"},
-          {"precharge_standby", standby(table.precharge_standby_mw, idle),
-           "Standby with all rows closed"}};
+  return {
+      {DramEnergyValues::activate_precharge,
+       times(table.activate_precharge_pj, counts.num_activates)},
+      {DramEnergyValues::read, times(table.read_pj, counts.num_read_bursts)},
+      {DramEnergyValues::write, times(table.write_pj, counts.num_write_bursts)},
+      {DramEnergyValues::refresh, times(table.refresh_pj, counts.num_refreshes)},
+      {DramEnergyValues::active_standby, standby(table.active_standby_mw, counts.active_cycles)},
+      {DramEnergyValues::precharge_standby, standby(table.precharge_standby_mw, idle)}};
 }
 
 double known_energy(const std::vector<DramEnergyItem>& items) {
