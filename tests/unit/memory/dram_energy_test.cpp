@@ -10,7 +10,7 @@ namespace {
 
 double item(const std::vector<DramEnergyItem>& items, std::string_view name) {
   for (const DramEnergyItem& one : items) {
-    if (one.name == name) return one.picojoule.value_or(-1);
+    if (one.what.name == name) return one.picojoule.value_or(-1);
   }
   return -2;
 }
