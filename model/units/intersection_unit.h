@@ -43,7 +43,7 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
   QuickStep step_if_hit(int context);
-  bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
+  bool fetch(int context, Address first, Bytes bytes, DataKind kind, Cycles& port_cycles,
              Cycles now);
 
   const TracedScene scene_;
