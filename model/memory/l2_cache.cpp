@@ -79,7 +79,7 @@ bool L2Cache::is_safe(Cycles event, Cycles now) const {
 
 void L2Cache::act(Cycles now) {
   domain_.happened(now);
-  take_answers(now);
+  if (!answers_.empty() && answers_.top().at <= now) take_answers(now);
   if (response_crossbar_) {
     response_crossbar_->cross(now, [this](const LineRequest& request, Cycles start) {
       responses_[request.requester]->write_ahead({request.address}, start);
@@ -121,18 +121,12 @@ void L2Cache::serve_queues(Cycles now) {
   }
 }
 
-// With requests put off by `lag`.
-Cycles L2Cache::next_event(Cycles lag) const {
-  Cycles next = *next_request_;
-  if (num_queued_ != 0) {
-    for (const Bank& bank : banks_) {
-      if (!bank.queue.empty() && can_take(bank)) next = std::min(next, bank.free_at);
-    }
+Cycles L2Cache::next_queued() const {
+  Cycles next = kNever;
+  for (const Bank& bank : banks_) {
+    if (!bank.queue.empty() && can_take(bank)) next = std::min(next, bank.free_at);
   }
-  if (request_crossbar_) next = std::min(next, next_crossing());
-  if (next != kNever) next += lag;
-  if (response_crossbar_) next = std::min(next, response_crossbar_->next_event());
-  return answers_.empty() ? next : std::min(next, answers_.top().at);
+  return next;
 }
 
 Cycles L2Cache::next_crossing() const {
@@ -248,7 +242,8 @@ bool L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
     pass_on(request, now);
   }
   if (request.acknowledged) {
-    responses_[request.requester]->write_ahead({request.address, true}, now + spec_.hit_latency);
+    responses_[request.requester]->write_ahead({LineResponse::kWriteTaken},
+                                               now + spec_.hit_latency);
   }
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <functional>
@@ -162,7 +163,16 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void count_queued(std::ptrdiff_t change, Cycles now);
   void count_mshrs(std::ptrdiff_t change, Cycles now);
   [[nodiscard]] Cycles next_event() const { return next_event(0); }
-  [[nodiscard]] Cycles next_event(Cycles lag) const;
+  /// With requests put off by `lag`.
+  [[nodiscard]] Cycles next_event(Cycles lag) const {
+    Cycles next = *next_request_;
+    if (num_queued_ != 0) next = std::min(next, next_queued());
+    if (request_crossbar_) next = std::min(next, next_crossing());
+    if (next != kNever) next += lag;
+    if (response_crossbar_) next = std::min(next, response_crossbar_->next_event());
+    return answers_.empty() ? next : std::min(next, answers_.top().at);
+  }
+  [[nodiscard]] Cycles next_queued() const;
   [[nodiscard]] Cycles next_crossing() const;
   [[nodiscard]] bool is_safe(Cycles event, Cycles now) const;
   L2KindStats& kind_of(const LineRequest& request) {

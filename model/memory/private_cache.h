@@ -130,6 +130,7 @@ class PrivateCache {
   Result miss(std::uint64_t line, DataKind kind, int waiter, bool dirty, Cycles now);
   Result wait_for_room(std::uint64_t& counter, int waiter);
   void count_occupancy(Cycles now);
+  bool writes_arrived(std::uint64_t line, Cycles now);
   void send_write(Address address, Bytes bytes, Cycles now);
 
   const CacheSpec spec_;

@@ -153,19 +153,42 @@ void Machine::build_regrouper() {
                                      (plan_.ray_cache ? config_.ray_cache.latency : 0)});
   links_->spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
       "spawned_rays",
-      TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
+      TimedChannel<SpawnBundle*>::Spec{
+          .capacity = config_.flow.control == FlowPolicy::kSpill ? config_.link.depth : kNeverFull,
+          .latency = config_.link.latency});
+  if (config_.flow.control == FlowPolicy::kSpill) build_spill();
+  auto& bundles = links_->spill_to_regrouper ? *links_->spill_to_regrouper : *links_->spawned_rays;
   if (plan_.ray_cache) {
     const SorterOptions options = sorter_options(config_, plan_, scene_.scene.bounds);
     ray_cache_ = std::make_unique<RayCacheUnit>("ray_cache", config_.ray_cache,
                                                 make_sorter(options, scene_.scene.bounds, packets_),
                                                 bundles_, flow_, domain_);
-    ray_cache_->in_bundles(*links_->spawned_rays);
+    ray_cache_->in_bundles(bundles);
     ray_cache_->out_packets(*links_->packet_fifo);
   } else {
     spawn_router_ = std::make_unique<SpawnRouter>("spawn_router", packets_, bundles_, domain_);
-    spawn_router_->in_bundles(*links_->spawned_rays);
+    spawn_router_->in_bundles(bundles);
     spawn_router_->out_packets(*links_->packet_fifo);
   }
+}
+
+// The queue that spills stands right before whoever takes the rays in.
+void Machine::build_spill() {
+  links_->spill_to_regrouper = std::make_unique<TimedChannel<SpawnBundle*>>(
+      "spill_to_regrouper", TimedChannel<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
+  CacheSpec line;
+  line.line = config_.l2.line / config_.l2.sectors;
+  const std::uint16_t requester = add_requester(line);
+  spill_ = std::make_unique<SpillUnit>(
+      "spill",
+      SpillUnit::Spec{.queue = config_.flow.spill_queue,
+                      .line = line.line,
+                      .base = scene_.memory.region(DataKind::kSpilledRay).base,
+                      .requester = requester},
+      *links_->caches_to_l2, domain_);
+  spill_->in_bundles(*links_->spawned_rays);
+  spill_->out_bundles(*links_->spill_to_regrouper);
+  spill_->in_lines(*links_->l2_to_caches.back());
 }
 
 void Machine::connect() {
@@ -277,6 +300,7 @@ void Machine::finish_accounts(Cycles end) {
   if (shader_cache_) shader_cache_->finish(end);
   if (ray_cache_) ray_cache_->finish(end);
   if (spawn_router_) spawn_router_->finish(end);
+  if (spill_) spill_->finish(end);
 }
 
 std::string Machine::describe_stuck() const {
@@ -296,6 +320,7 @@ std::string Machine::describe_stuck() const {
   add(packet_arbiter_.get());
   add(ray_cache_.get());
   add(spawn_router_.get());
+  add(spill_.get());
   add(film_.get());
   add(l2_.get());
   if (links_->packet_fifo && links_->packet_fifo->size() != 0) {

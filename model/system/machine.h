@@ -25,6 +25,7 @@
 #include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -56,6 +57,7 @@ class Machine {
   void build_memory();
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void connect_shader_cache();
@@ -86,6 +88,7 @@ class Machine {
   std::unique_ptr<PacketArbiter> packet_arbiter_;
   std::unique_ptr<RayCacheUnit> ray_cache_;
   std::unique_ptr<SpawnRouter> spawn_router_;
+  std::unique_ptr<SpillUnit> spill_;
   std::unique_ptr<ShaderCacheUnit> shader_cache_;
   std::unique_ptr<FilmUnit> film_;
   std::unique_ptr<L2Cache> l2_;

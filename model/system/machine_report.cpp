@@ -40,6 +40,12 @@ void Machine::report_units(StatsTree& stats) const {
     stats.add_counters("system.spawn_router", spawn_router_->stats());
     unit("system.spawn_router", *spawn_router_);
   }
+  if (spill_) {
+    stats.add_counters("system.spill", spill_->stats());
+    stats.add_ratio("system.spill", SpillValues::mean_spill_latency,
+                    spill_->stats().sum_spill_latency, spill_->stats().num_bundles_spilled);
+    unit("system.spill", *spill_);
+  }
   TraceCounts primary;
   TraceCounts secondary;
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
@@ -127,6 +133,7 @@ void Machine::report_memory(StatsTree& stats) const {
     stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
   }
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
+    if (static_cast<DataKind>(kind) == DataKind::kSpilledRay && !spill_) continue;
     const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
     stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
   }

@@ -19,6 +19,7 @@
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -117,6 +118,8 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"system.ray_cache.fill", "Rays in a packet that left the ray cache",
                    kHistogramInfos},
       CounterGroup{"system.spawn_router", "Only for the heuristic none", SpawnRouterStats::infos()},
+      CounterGroup{"system.spill", "Only with flow.control = spill", SpillStats::infos()},
+      CounterGroup{"system.spill", "Formulas of these", SpillValues::infos()},
       CounterGroup{"system.shader_cache", "Only with shader_cache.cells",
                    ShaderCacheStats::infos()},
       CounterGroup{"system.shader_cache", "Formulas of these", ShadingSorterValues::infos()},

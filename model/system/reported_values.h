@@ -62,6 +62,10 @@ SHEAF_VALUES(LinkValues, SHEAF_LINK_VALUES);
   X(mean_cell_residence, "cycles", "Mean time from a cell's opening to its departure")
 SHEAF_VALUES(SorterValues, SHEAF_SORTER_VALUES);
 
+#define SHEAF_SPILL_VALUES(X) \
+  X(mean_spill_latency, "cycles", "Mean time from a spilled bundle's arrival to its return")
+SHEAF_VALUES(SpillValues, SHEAF_SPILL_VALUES);
+
 #define SHEAF_SHADING_SORTER_VALUES(X)                                                          \
   X(hit_rate, "1", "Rays that met an open cell, per ray")                                       \
   X(rays_per_material_in, "rays", "Rays to be shaded per material of a packet, before sorting") \

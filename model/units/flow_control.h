@@ -41,7 +41,7 @@ class WorstCase {
 class FlowControl {
  public:
   FlowControl(const FlowSpec& spec, const WorstCase& worst_case, std::uint64_t credits)
-      : worst_case_(worst_case), credits_(credits), by_tile_(spec.control == FlowPolicy::kTile) {}
+      : worst_case_(worst_case), credits_(credits), policy_(spec.control) {}
 
   void bind_source(Inbox& inbox) { source_ = &inbox; }
   void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }
@@ -62,10 +62,10 @@ class FlowControl {
     }
   }
 
-  [[nodiscard]] bool by_tile() const { return by_tile_; }
+  [[nodiscard]] bool by_tile() const { return policy_ == FlowPolicy::kTile; }
   [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
   [[nodiscard]] bool admits(std::uint64_t reservation) const {
-    return by_tile_ || reserved_ + reservation <= credits_;
+    return policy_ != FlowPolicy::kCredits || reserved_ + reservation <= credits_;
   }
   void admit(std::uint64_t rays, std::uint64_t reservation) {
     live_ += rays;
@@ -83,7 +83,7 @@ class FlowControl {
       nudge(source_, now);
       nudge(regrouper_, now);
       nudge(shader_cache_, now);
-    } else if (!by_tile_) {
+    } else if (policy_ == FlowPolicy::kCredits) {
       nudge(source_, now);
     }
     if (live_ == 0 && source_state_ == Source::kExhausted) nudge(film_, now);
@@ -122,7 +122,7 @@ class FlowControl {
 
   const WorstCase worst_case_;
   const std::uint64_t credits_;
-  const bool by_tile_;
+  const FlowPolicy policy_;
   std::uint64_t live_ = 0;
   std::uint64_t waiting_ = 0;
   std::uint64_t waiting_for_shader_ = 0;
