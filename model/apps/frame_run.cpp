@@ -67,8 +67,9 @@ class Stopwatch {
 };
 
 /// Simulates; fills the frame and the statistics. Returns true if the frame is complete.
-bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
+bool simulate(const FrameJob& job, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
               FrameGuest* guest, StatsTree& stats) {
+  const Config& config = job.config;
   Progress progress;
   const RunHooks hooks = guest != nullptr ? guest->hooks() : RunHooks{};
   const auto stop = [&] { return interrupt_seen != 0 || (guest != nullptr && guest->failed()); };
@@ -82,6 +83,7 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
     return complete;
   }
   Machine machine(config, plan, scene, frame, hooks);
+  for (MachineObserver* observer : job.observers) machine.observe(*observer);
   const bool complete = machine.run([&](double share, Cycles now) {
     progress.update(share, fmt::format("cycle {}", now));
     return stop();
@@ -131,7 +133,7 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   report_scene(scene, plan, stats);
   const std::unique_ptr<FrameGuest> guest = job.guest ? job.guest(scene, frame) : nullptr;
   const Stopwatch run_watch;
-  const bool complete = simulate(config, plan, scene, frame, guest.get(), stats);
+  const bool complete = simulate(job, plan, scene, frame, guest.get(), stats);
   const double run_seconds = run_watch.seconds();
   report_rays(frame.rays, stats);
   report_energy(config, plan, stats);

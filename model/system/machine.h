@@ -15,6 +15,7 @@
 #include "stats/report_tree.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
+#include "system/machine_observer.h"
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
 #include "units/film_unit.h"
@@ -49,6 +50,9 @@ class Machine {
 
   void report(StatsTree& stats) const;
 
+  /// Adds an observer; to be called before run().
+  void observe(MachineObserver& observer);
+
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 
  private:
@@ -63,6 +67,9 @@ class Machine {
   [[nodiscard]] std::string describe_stuck() const;
   void finish_accounts(Cycles end);
   [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
+  [[nodiscard]] MachineProbes probes();
+  void probe_units(MachineProbes& probes) const;
+  void probe_links(MachineProbes& probes) const;
   void report_units(StatsTree& stats) const;
   void report_memory(StatsTree& stats) const;
   void report_links(StatsTree& stats) const;
@@ -90,6 +97,7 @@ class Machine {
   std::unique_ptr<FilmUnit> film_;
   std::unique_ptr<L2Cache> l2_;
   std::unique_ptr<MainMemory> dram_;
+  std::vector<MachineObserver*> observers_;
   Cycles end_ = 0;
   bool complete_ = false;
 };
