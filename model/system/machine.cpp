@@ -47,6 +47,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
       flow_(make_flow_control(config, plan, scene.scene)),
       domain_("clock_domain", period_of(config.clock.frequency)),
       links_(std::make_unique<Links>()) {
+  if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
   build_memory();
   build_units();
   if (plan_.secondary_rays) build_regrouper();
