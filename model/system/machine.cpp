@@ -38,6 +38,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
                  Frame& frame, const RunHooks& hooks)
     : MachineParts(config, plan, scene, frame, hooks),
       domain_("clock_domain", period_of(config.clock.frequency)) {
+  if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
   build_memory();
   build_units();
   if (plan_.secondary_rays) build_regrouper();
