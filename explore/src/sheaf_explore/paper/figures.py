@@ -178,7 +178,11 @@ def gains_plot(gains: pd.DataFrame) -> Plot:
             tooltip=["scene:N", "level:O", "heuristic:N", "ours:Q", "paper:Q"],
         )
     )
-    equal = alt.Chart(line).mark_line(color="#bbb", strokeDash=[4, 4]).encode(x="x:Q", y="y:Q")
+    equal = (
+        alt.Chart(line)
+        .mark_line(color="#bbb", strokeDash=[4, 4])
+        .encode(x=alt.X("x:Q", scale=axis), y=alt.Y("y:Q", scale=axis))
+    )
     chart = alt.layer(equal, dots).properties(width=_WIDE + 60, height=_WIDE)
     return Plot(
         "paper-gains",
@@ -233,7 +237,7 @@ def _by_sorting(machines: pd.DataFrame, column: str, title: str) -> Any:
     )
     return (
         alt.layer(one, dots, data=data)
-        .properties(width=165, height=22 * len(sortings))
+        .properties(width=215, height=24 * len(sortings))
         .facet(column=alt.Column("memory:N", sort=memories, title=None))
     )
 

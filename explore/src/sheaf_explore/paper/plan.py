@@ -78,9 +78,9 @@ _PERFECT = {f"{name}_cache.mode": "perfect" for name in ("node", "triangle", "at
 MEMORIES: dict[str, Settings] = {
     "perfect caches": {**_PERFECT},
     "HBM2": {"dram.model": "HBM2-2000"},
-    "LPDDR5": {"dram.model": "LPDDR5-6400"},
-    "LPDDR5, caches an eighth": {
-        "dram.model": "LPDDR5-6400",
+    "DDR4": {"dram.model": "DDR4-3200"},
+    "DDR4, caches an eighth": {
+        "dram.model": "DDR4-3200",
         "node_cache.capacity": 2048,
         "triangle_cache.capacity": 2048,
         "attribute_cache.capacity": 2048,
