@@ -26,8 +26,8 @@ _SHORT = alt.Axis(  # 2.5M and 0.95, where one format would give 2500000 or 950m
     labelExpr="format(datum.value, abs(datum.value) >= 1000 ? '~s' : '.4~g')"
 )
 
-_PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes")
-_ENERGY_COLUMNS = ("energy.total", "system.energy.total", "system.energy", "derived.energy")
+_ENERGY = "energy.known"
+_PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes", _ENERGY)
 _DEFAULT_MEASURES = (
     "system.cycles",
     "derived.dram_bytes",
@@ -216,9 +216,10 @@ def pareto_plots(table: Table) -> tuple[list[Plot], list[str]]:
     counters = set(table.counters())
     if against not in counters:
         return [], [f"No Pareto fronts: the points have no {against}."]
-    energy = next((c for c in _ENERGY_COLUMNS if c in counters), None)
-    costs = [c for c in (*_PARETO_COSTS, energy) if c is not None and c in counters]
-    notes = [] if energy else ["Energy: the simulator that ran this sweep does not report it."]
+    costs = [cost for cost in _PARETO_COSTS if cost in counters]
+    notes: list[str] = []
+    if _ENERGY not in costs:
+        notes.append("Energy: the simulator that ran this sweep does not report it.")
     plots: list[Plot] = []
     for cost in costs:
         if table.frame[cost].nunique() > 1:
