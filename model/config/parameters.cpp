@@ -9,8 +9,11 @@ namespace {
 
 void declare_run(ParameterTable& t, Config& c) {
   t.choice("run.fidelity", c.run.fidelity, Fidelity::kTimed,
-           {{"functional", Fidelity::kFunctional}, {"timed", Fidelity::kTimed}},
-           "How much of time is simulated: none (same pipeline, untimed), or event-driven cycles");
+           {{"functional", Fidelity::kFunctional},
+            {"timed", Fidelity::kTimed},
+            {"clocked", Fidelity::kClocked}},
+           "How time is simulated: not at all (same pipeline, untimed), event by event, or with "
+           "every unit ticking in every cycle, which is the reference and slow");
   t.count("run.max_cycles", c.run.max_cycles, 0, 0, kMaxCount, "cycles",
           "End the run, marked as partial, after this many cycles; 0 = no limit");
   t.flag("run.keep_all", c.run.keep_all, false,
