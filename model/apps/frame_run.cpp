@@ -16,6 +16,7 @@
 #include "report/stats_json.h"
 #include "report/summary.h"
 #include "scene/load_gltf.h"
+#include "system/clocked_machine.h"
 #include "system/coherence.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
@@ -81,13 +82,18 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
     pipeline.report(stats);
     return complete;
   }
-  Machine machine(config, plan, scene, frame, hooks);
-  const bool complete = machine.run([&](double share, Cycles now) {
-    progress.update(share, fmt::format("cycle {}", now));
-    return stop();
-  });
-  machine.report(stats);
-  return complete;
+  const auto run = [&](auto&& machine) {
+    const bool complete = machine.run([&](double share, Cycles now) {
+      progress.update(share, fmt::format("cycle {}", now));
+      return stop();
+    });
+    machine.report(stats);
+    return complete;
+  };
+  if (config.run.fidelity == Fidelity::kClocked) {
+    return run(ClockedMachine(config, plan, scene, frame, hooks));
+  }
+  return run(Machine(config, plan, scene, frame, hooks));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "system/clocked_machine.h"
 #include "system/machine.h"
 #include "system/report_parts.h"
 #include "system/reported_values.h"
@@ -137,5 +138,6 @@ void MachineParts<Kind>::report_memory(StatsTree& stats) const {
 }
 
 template void MachineParts<TimedKind>::report(StatsTree& stats) const;
+template void MachineParts<ClockedKind>::report(StatsTree& stats) const;
 
 }  // namespace sheaf
