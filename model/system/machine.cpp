@@ -251,6 +251,7 @@ bool Machine::run(const Monitor& monitor) {
   end_ = domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   num_wakes_ = domain_.num_wakes();
+  for (MachineObserver* observer : observers_) observer->finish(end_);
   finish_accounts(end_);
   if (domain_.ran_dry()) {
     if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());
