@@ -16,6 +16,7 @@
 #include "report/stats_json.h"
 #include "report/summary.h"
 #include "scene/load_gltf.h"
+#include "system/clocked_machine.h"
 #include "system/coherence.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
@@ -82,14 +83,21 @@ bool simulate(const FrameJob& job, const BuildPlan& plan, const PreparedScene& s
     pipeline.report(stats);
     return complete;
   }
+  const auto run = [&](auto& machine) {
+    const bool complete = machine.run([&](double share, Cycles now) {
+      progress.update(share, fmt::format("cycle {}", now));
+      return stop();
+    });
+    machine.report(stats);
+    return complete;
+  };
+  if (config.run.fidelity == Fidelity::kClocked) {
+    ClockedMachine machine(config, plan, scene, frame, hooks);
+    return run(machine);
+  }
   Machine machine(config, plan, scene, frame, hooks);
   for (MachineObserver* observer : job.observers) machine.observe(*observer);
-  const bool complete = machine.run([&](double share, Cycles now) {
-    progress.update(share, fmt::format("cycle {}", now));
-    return stop();
-  });
-  machine.report(stats);
-  return complete;
+  return run(machine);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "apps/observation.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
+#include "apps/stability_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "energy/energy_report.h"
@@ -31,6 +32,7 @@ struct Commands {
   sheaf::RunOptions run;
   sheaf::MemoryOptions memory;
   sheaf::ReplayOptions replay;
+  sheaf::StabilityOptions stability;
   std::string info_scene;
   bool schema = false;
   bool resolve = false;
@@ -107,6 +109,7 @@ void declare(CLI::App& app, Commands& commands) {
 
   sheaf::declare_memory_command(app, commands.memory);
   declare_replay(app, commands.replay);
+  sheaf::declare_stability_command(app, commands.stability);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
@@ -142,6 +145,7 @@ int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
+  if (app.got_subcommand("stability")) return sheaf::stability_command(commands.stability);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("coefficients")) return sheaf::coefficients_command();
   std::fputs(

@@ -93,7 +93,7 @@ void Machine::probe_units(MachineProbes& probes) const {
 
 void Machine::probe_links(MachineProbes& probes) const {
   auto& links = probes.links;
-  const Links& all = *links_;
+  const auto& all = links_;
   links.push_back(probe_packets(*all.source_to_arbiter, packet_arbiter_->name()));
   if (all.packet_fifo) links.push_back(probe_packets(*all.packet_fifo, packet_arbiter_->name()));
   if (all.spawned_rays) {
