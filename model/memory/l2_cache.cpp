@@ -73,7 +73,9 @@ bool L2Cache::is_safe(Cycles event, Cycles now) const {
   return requests_ahead_.is_beyond(event);
 }
 
-void L2Cache::act(Cycles now) {
+// With a quantum an event may lie behind others that have been dealt with.
+void L2Cache::act(Cycles event) {
+  const Cycles now = own_time_ = std::max(own_time_, event);
   domain_.happened(now);
   while (!fills_.empty() && fills_.top().at <= now) {
     const Address address = fills_.top().address;
@@ -210,7 +212,7 @@ void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles at) 
 
 void L2Cache::dram_done(const tlm::tlm_generic_payload& payload, Cycles at) {
   if (payload.is_write()) return;
-  fills_.push({at, num_fills_++, payload.get_address()});
+  fills_.push({at, payload.get_address()});
   inbox_.nudge(at);
 }
 

@@ -96,14 +96,12 @@ class L2Cache final : public sc_core::sc_module, public Agent {
     Cycles free_at = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
   };
-  /// A line on its way from DRAM.
+  /// A line on its way from DRAM. Of those that come in the same cycle the lowest address is first,
+  /// in whatever order a memory of several channels gave notice of them.
   struct Fill {
     Cycles at = 0;
-    std::uint64_t rank = 0;
     Address address = 0;
-    bool operator>(const Fill& other) const {
-      return at != other.at ? at > other.at : rank > other.rank;
-    }
+    auto operator<=>(const Fill&) const = default;
   };
 
   void end_of_elaboration() override;
@@ -116,7 +114,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void send_to_dram(Address address, Bytes bytes, bool write, Cycles at);
   void dram_done(const tlm::tlm_generic_payload& payload, Cycles at);
   void fill(Address address, Cycles now);
-  void act(Cycles now);
+  void act(Cycles event);
   [[nodiscard]] Cycles next_event() const { return next_event(0); }
   [[nodiscard]] Cycles next_event(Cycles lag) const;
   [[nodiscard]] bool is_safe(Cycles event, Cycles now) const;
@@ -142,9 +140,9 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   unsigned bank_shift_;
   std::vector<Bank> banks_;
   std::size_t num_queued_ = 0;  ///< requests in all banks' queues
+  Cycles own_time_ = 0;         ///< of the last event
 
   std::priority_queue<Fill, std::vector<Fill>, std::greater<>> fills_;
-  std::uint64_t num_fills_ = 0;
   std::vector<TimedOut<LineResponse>*> responses_;
   const Cycles* next_request_ = nullptr;
 

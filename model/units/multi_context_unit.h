@@ -73,6 +73,14 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   }
   [[nodiscard]] int num_held() const { return std::popcount(held_); }
 
+  // As of cycle `now`, up to which everything has been done.
+  [[nodiscard]] StallCause cause_at(Cycles now) const {
+    return busy_until_ > now ? StallCause::kBusy : waiting_cause();
+  }
+  [[nodiscard]] bool port_taken_at(Cycles now) const { return port_free_ > now; }
+  /// Bit i: context i is held.
+  [[nodiscard]] std::uint64_t held_contexts() const { return held_; }
+
  protected:
   MultiContextUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
                    ClockDomain& domain)
