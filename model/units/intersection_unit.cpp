@@ -51,7 +51,7 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
 // A job matters only while there is a context for it.
 Cycles IntersectionUnit::earliest_input() {
   const Cycles job = has_free_context() ? jobs_ahead_.earliest() : kNever;
-  return std::min(job, earliest_answer(parked(), lines_ahead_));
+  return or_answer(job, parked(), lines_ahead_);
 }
 
 bool IntersectionUnit::ready(int number, Cycles now) {
