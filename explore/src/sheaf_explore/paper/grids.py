@@ -214,16 +214,13 @@ def verdicts(found: list[Verdict]) -> Grid:
 
 
 def sram(machines: pd.DataFrame) -> Grid:
-    """SRAM and area of each sorting, with the first scene and each memory."""
-    first = machines[machines["scene"] == machines["scene"].iloc[0]]
-    sortings = list(dict.fromkeys(first["sorting"]))
-    memories = list(dict.fromkeys(first["memory"]))
-    rows = []
-    for sorting in sortings:
-        cells = []
-        for memory in memories:
-            at = first[(first["sorting"] == sorting) & (first["memory"] == memory)].iloc[0]
-            cells += [Cell(number(at["sram_kib"])), Cell(number(at["area"]))]
-        rows.append(Row((sorting,), tuple(cells)))
-    groups = tuple((memory, 2) for memory in memories)
-    return Grid(("sorting", *("KiB", "mm²") * len(memories)), 1, tuple(rows), groups)
+    """What each sorting takes in SRAM; areas are the same for all scenes."""
+    last = machines[machines["memory"] == machines["memory"].unique()[-2]]
+    once = last.drop_duplicates("sorting")
+    columns = ("ray_cache_kib", "ray_cache_area", "area", "area_relative")
+    rows = tuple(
+        Row((row["sorting"],), tuple(Cell(number(row[column])) for column in columns))
+        for row in _records(once)
+    )
+    names = ("sorting", "ray cache, KiB", "ray cache, mm²", "all SRAM, mm²", "none = 1")
+    return Grid(names, 1, rows)

@@ -16,7 +16,8 @@ import pandas as pd
 from sheaf_explore.charts import Plot
 from sheaf_explore.paper import answer, figures, grids, hardware, sway, tables
 from sheaf_explore.paper import plan as design
-from sheaf_explore.paper.claims import check_claims, Claim, frame_of
+from sheaf_explore.paper.claims import check_claims, check_coherence, Claim, frame_of
+from sheaf_explore.paper.explain import scene_or_model
 from sheaf_explore.paper.hardware import Verdict
 from sheaf_explore.paper.plan import Plan
 from sheaf_explore.paper.runs import Results
@@ -31,6 +32,7 @@ class Findings:
     plan: Plan
     tables: dict[str, pd.DataFrame]  # by the name of their CSV file
     claims: list[Claim]
+    elsewhere: list[Claim]  # those of table 4, checked on other views of the scenes
     verdicts: list[Verdict]
     energy_of: str  # what the energy column holds; empty if there is none
     runs: int
@@ -54,14 +56,17 @@ def find(plan: Plan, results: Results, runs: int, failed: int) -> Findings:
         "anchors": sway.anchors(plan, results),
         "machines": hardware.machines(plan, results),
     }
+    views = plan.views()
+    made["views"] = tables.coherence(views, results)
     made["ranks"] = tables.rank_correlations(made["table4"])
     made["gains"] = tables.gains(made["table4"])
     claims = check_claims(made["table2"], made["table3"], made["table4"])
+    elsewhere = check_coherence(made["views"])
     made["claims"] = frame_of(claims)
     machines = made["machines"]
     found = hardware.verdicts(machines) if len(machines) else []
     energy_of = hardware.ENERGIES.get(hardware.energy_counter(plan, results), "")
-    return Findings(plan, made, claims, found, energy_of, runs, failed)
+    return Findings(plan, made, claims, elsewhere, found, energy_of, runs, failed)
 
 
 def table_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
@@ -113,6 +118,8 @@ def _context(findings: Findings) -> dict[str, Any]:
         "credits": f"{design.CREDITS:,}",
         "hardware_plots": hardware_plots,
         "claims": findings.claims,
+        "elsewhere": findings.elsewhere,
+        "explained": scene_or_model(made["table4"], made["gains"]),
         "ranks": made["ranks"],
         "median": findings.median,
         "rank_grid": grids.ranks(made["ranks"]),
