@@ -32,9 +32,8 @@ def scene_or_model(table4: pd.DataFrame, gains: pd.DataFrame) -> list[str]:
     if p_t.empty or gain.empty:
         return []
     sentences = [
-        f"On the stand-ins p_t is off by {_off(p_t)} in the median, but p_t over that of none, which "
-        f"is what a heuristic does, by {_off(gain)}: most of the distance is in how coherent the "
-        "rays of a scene are at all."
+        f"On the stand-ins p_t is off by {_off(p_t)} in the median, but p_t over that of none, "
+        f"which is what a heuristic does, by {_off(gain)}."
     ]
     c, p = _none(stand_ins, "c_t"), _none(stand_ins, "p_t")
     both = c.index.intersection(p.index)
@@ -49,7 +48,7 @@ def scene_or_model(table4: pd.DataFrame, gains: pd.DataFrame) -> list[str]:
         off = group[group["measure"] == "p_t"]["difference"].dropna()
         of_c = group[group["measure"] == "c_t"]["difference"].dropna()
         sentences.append(
-            f"{str(scene).capitalize()}, the paper's own model with a view and a light of our own: "
-            f"p_t is off by {_off(off)}, c_t by {_off(of_c)}, p_t over that of none by {_off(ours)}."
+            f"{str(scene).capitalize()}, the paper's own model in a view and a light of our own: "
+            f"p_t is off by {_off(off)}, c_t by {_off(of_c)}, p_t over none's by {_off(ours)}."
         )
     return sentences

@@ -98,6 +98,7 @@ MEMORIES: dict[str, Settings] = {
         "l2.capacity": 65536,
     },
 }
+USUAL_MEMORY = "DDR4"  # with caches of their default size
 SORTINGS = (
     ("none", 0),
     ("dir", 8),
@@ -208,18 +209,18 @@ class Plan:
         return replace(self, scenes=tuple(scenes))
 
     def all_runs(self) -> Iterator[Run]:
-        """Everything, the slowest first, so that no processor waits at the end."""
+        """Everything: the slowest first, the rest in the order in which it is read."""
         for scene in reversed(self.traversal_scenes()):
             yield from (self.traversal(scene, scheme) for scheme in TRAVERSALS.values())
-        for scene in self.hardware_scenes():
-            yield from (self.machine(scene, machine) for machine in self.machines())
         for scene in (*self.scenes, *self.views().scenes):
             for level in LEVELS:
                 yield from (self.coherence(scene, level, h) for h in HEURISTICS)
         for scene in self.scenes:
-            yield from (self.frame_rate(scene, h) for h in TABLE1_HEURISTICS)
             yield from (self.packet(scene, size) for size in PACKET_SIZES)
+            yield from (self.frame_rate(scene, h) for h in TABLE1_HEURISTICS)
         for scene in self.varied_scenes():
             for variant in VARIANTS:
                 yield from (self.coherence(scene, SWAY_LEVEL, h, variant) for h in variant.only)
             yield from (self.coherence(scene, SWAY_LEVEL, h) for h in POS_HEURISTICS)
+        for scene in self.hardware_scenes():
+            yield from (self.machine(scene, machine) for machine in self.machines())
