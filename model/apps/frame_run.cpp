@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "config/config_text.h"
+#include "energy/energy_report.h"
 #include "report/images.h"
 #include "report/progress.h"
 #include "report/stats_json.h"
@@ -133,6 +134,7 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   const bool complete = simulate(config, plan, scene, frame, guest.get(), stats);
   const double run_seconds = run_watch.seconds();
   report_rays(frame.rays, stats);
+  report_energy(config, plan, stats);
   if (config.measure.coherence && complete) {
     CoherencePass coherence(config, scene);
     coherence.run();

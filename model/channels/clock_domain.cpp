@@ -14,7 +14,8 @@ constexpr std::uint64_t kMonitorInterval = 1U << 14;
 void Lookahead::bind(const ClockDomain& domain, const std::vector<std::size_t>& last,
                      std::size_t agent) {
   calendar_ = &domain.calendar();
-  const Reach reach = domain.reach(last, agent);
+  Reach reach = domain.reach(last, agent);
+  for (Cycles& distance : reach) distance += domain.quantum();
   others_ = LinkMap::kFarAway;
   nearest_ = *std::min_element(reach.begin(), reach.end());
   for (std::size_t from = 0; from < reach.size(); ++from) {

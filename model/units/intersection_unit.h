@@ -39,10 +39,9 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   void end_of_elaboration() override;
   void start_of_simulation() override;
   Cycles accept_inputs(Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  QuickStep step_if_hit(int context);
   bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
              Cycles now);
 

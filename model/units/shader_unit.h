@@ -75,12 +75,10 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   void end_of_elaboration() override;
   Cycles accept_inputs(Cycles now);
   void accept_packet(RayPacket* packet, Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   // Never runs ahead: it changes what flow control counts.
   [[nodiscard]] static Cycles earliest_input() { return 0; }
-  // Its steps are few and seldom find all their lines.
-  static QuickStep step_if_hit(int /*context*/) { return {}; }
   void begin_phase(int number, Phase phase);
   void list_lines(Context& context);
   void prepare_output(Context& context);

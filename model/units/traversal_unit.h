@@ -86,11 +86,10 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   void start_of_simulation() override;
   Cycles accept_inputs(Cycles now);
   void accept_packet(RayPacket* packet, Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  QuickStep step_if_hit(int context);
-  void begin_step(int context, Cycles now);
+  bool begin_step(int context, Cycles now);
   void send_job(int context, Cycles now);
   void send_packet(int context, Cycles now);
 
