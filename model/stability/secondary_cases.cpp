@@ -16,8 +16,8 @@ namespace sheaf::stability {
 namespace {
 
 const char* const kOffset =
-    "origins leave by 256 ulps, or by 2^-16 of the scene's unit near zero, more than the rounding "
-    "of the position (Wachter and Binder 2019)";
+    "origins leave by 256 ulps, by 2^-16 of the scene's unit near zero (Wachter and Binder 2019) "
+    "and by 2^-20 of large triangles (decision 0060), more than positions and t are off";
 
 Material everything() {
   Material material;
@@ -219,6 +219,10 @@ std::vector<StabilityCase> secondary_cases() {
                      large_through_zero(1.0F), false});
   sources.push_back(
       {"huge triangles at zero", "the same scaled by 1e6", large_through_zero(1e6F), false});
+  sources.push_back({"stadium", "0.1 units of detail on a floor of 20,000 that lies on zero",
+                     teapot_in_stadium(0.1F, 1e4F), false});
+  sources.push_back({"large stadium", "the same with a floor of 2,000,000",
+                     teapot_in_stadium(0.1F, 1e6F), false});
   std::vector<StabilityCase> cases;
   for (const Source& source : sources) {
     cases.push_back({"secondary", source.name, source.extreme, [source](const Effort& effort) {
