@@ -77,7 +77,9 @@ bool L2Cache::is_safe(Cycles event, Cycles now) const {
   return requests_ahead_.is_beyond(event);
 }
 
-void L2Cache::act(Cycles now) {
+// With a quantum an event may lie behind others that have been dealt with.
+void L2Cache::act(Cycles event) {
+  const Cycles now = own_time_ = std::max(own_time_, event);
   domain_.happened(now);
   if (!answers_.empty() && answers_.top().at <= now) take_answers(now);
   if (response_crossbar_) {
@@ -101,7 +103,7 @@ void L2Cache::take_answers(Cycles now) {
   while (!answers_.empty() && answers_.top().at <= now) {
     const Answer answer = answers_.top();
     answers_.pop();
-    if (!answer.is_write()) {
+    if (!answer.write) {
       fill(answer.address, now);
       continue;
     }
@@ -329,7 +331,7 @@ void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles at) 
 void L2Cache::dram_done(const tlm::tlm_generic_payload& payload, Cycles at) {
   // Of writes only those are of interest that something waits for.
   if (payload.is_write() && spec_.write.buffer == 0) return;
-  answers_.push({at, 2 * num_answers_++ + (payload.is_write() ? 1 : 0), payload.get_address()});
+  answers_.push({at, payload.get_address(), payload.is_write()});
   inbox_.nudge(at);
 }
 

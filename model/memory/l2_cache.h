@@ -123,15 +123,13 @@ class L2Cache final : public sc_core::sc_module, public Agent {
     std::uint32_t num_writes_out = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
   };
-  /// A line on its way from DRAM, or a write that has been done there.
+  /// A line on its way from DRAM, or a write that has been done there. Of those of the same cycle the
+  /// lowest address is first, in whatever order a memory of several channels gave notice of them.
   struct Answer {
     Cycles at = 0;
-    std::uint64_t rank = 0;  ///< the lower the earlier known; odd: of a write
     Address address = 0;
-    [[nodiscard]] bool is_write() const { return rank % 2 != 0; }
-    bool operator>(const Answer& other) const {
-      return at != other.at ? at > other.at : rank > other.rank;
-    }
+    bool write = false;
+    auto operator<=>(const Answer&) const = default;
   };
   /// A line as a bank sees it.
   struct Place {
@@ -159,7 +157,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void dram_done(const tlm::tlm_generic_payload& payload, Cycles at);
   void take_answers(Cycles now);
   void fill(Address address, Cycles now);
-  void act(Cycles now);
+  void act(Cycles event);
   void count_queued(std::ptrdiff_t change, Cycles now);
   void count_mshrs(std::ptrdiff_t change, Cycles now);
   [[nodiscard]] Cycles next_event() const { return next_event(0); }
@@ -215,12 +213,12 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   std::vector<Bank> banks_;
   std::size_t num_queued_ = 0;       ///< requests in all banks' queues
   std::size_t num_outstanding_ = 0;  ///< MSHRs in use in all banks
+  Cycles own_time_ = 0;              ///< of the last event
   Cycles queues_counted_until_ = 0, mshrs_counted_until_ = 0;
   std::optional<RequestCrossbar> request_crossbar_;
   std::optional<ResponseCrossbar> response_crossbar_;
 
   std::priority_queue<Answer, std::vector<Answer>, std::greater<>> answers_;
-  std::uint64_t num_answers_ = 0;
   std::vector<TimedOut<LineResponse>*> responses_;
   const Cycles* next_request_ = nullptr;
 
