@@ -101,7 +101,7 @@ void check_crossbar(const CrossbarSpec& spec) {
 }
 
 void check_memory(const Config& c) {
-  check_cache("l2", c.l2);
+  if (c.l2.mode != CacheMode::kPerfect) check_cache("l2", c.l2);
   if (c.l2.mode == CacheMode::kNormal) check_sets("l2", c.l2, c.l2.banks);
   check_private_cache("node_cache", c.node_cache, c.l2);
   check_private_cache("triangle_cache", c.triangle_cache, c.l2);

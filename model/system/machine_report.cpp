@@ -82,6 +82,9 @@ void MachineParts<Kind>::report_links(StatsTree& stats) const {
   const auto link = [&](const std::string& path, const auto& channel) {
     stats.add(path, LinkValues::num_written, channel.num_written());
     stats.add(path, LinkValues::max_occupancy, channel.max_size());
+    stats.add(path, LinkValues::occupancy_cycles, channel.occupancy_cycles());
+    stats.add_ratio(path, LinkValues::mean_residence, channel.occupancy_cycles(),
+                    channel.num_written());
   };
   link("system.link.source_to_arbiter", *links_.source_to_arbiter);
   if (links_.packet_fifo) link("system.packet_fifo", *links_.packet_fifo);
