@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Sheaf authors
 # SPDX-License-Identifier: Apache-2.0
-"""explore paper from end to end, at a tiny size on scenes of four triangles."""
+"""explore paper from end to end, at a tiny size on scenes of a few triangles."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from conftest import Explore
-from scene_maker import tiny_gltf
+from scene_maker import stairs, tiny_gltf
 from test_report import browse, CHROMIUM
 
 from sheaf_explore.paper import command, plan
@@ -38,7 +38,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def made(explore: Explore, sheaf: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The report, made by the first test that asks for it."""
     for name in SCENES:
-        (folder / f"{name}.glb").write_bytes(glb(tiny_gltf()))
+        (folder / f"{name}.glb").write_bytes(glb(tiny_gltf(stairs(6))))
     monkeypatch.setattr(command, "_folder_of_scenes", lambda: folder)
     # Fewer machines and variants: each is made the same way.
     monkeypatch.setattr(plan, "MEMORIES", MEMORIES)

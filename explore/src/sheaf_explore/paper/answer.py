@@ -43,12 +43,13 @@ def answer(machines: pd.DataFrame, found: list[Verdict]) -> list[str]:
     pays = [v for v in found if v.pays]
     listed = "; ".join(f"{v.scene} with {v.memory} ({v.best})" for v in pays)
     best = min(found, key=lambda v: v.time)
+    traffic = _change(best.traffic, "smaller", "larger")
     sentences = [
         f"Sorting shortens the frame by more than {PAYS:.0%} in {len(pays)} of {len(found)} pairs "
         f"of scene and memory{': ' + listed if listed else ''}.",
         f"The best case is {best.scene} with {best.memory}: {best.best} makes the frame "
-        f"{_change(best.time, 'shorter', 'longer')} and its DRAM traffic a ray "
-        f"{_change(best.traffic, 'smaller', 'larger')}.",
+        f"{_change(best.time, 'shorter', 'longer')}"
+        + ("." if math.isnan(best.traffic) else f" and its DRAM traffic a ray {traffic}."),
     ]
     return [*sentences, *_by_heuristic(machines), *_why(machines), *_energy(machines)]
 

@@ -242,6 +242,35 @@ def _by_sorting(machines: pd.DataFrame, column: str, title: str) -> Any:
     )
 
 
+def _by_size(machines: pd.DataFrame) -> Plot:
+    """Time along the size of the ray cache, by heuristic and memory."""
+    sorted_ = machines[machines["heuristic"] != "none"]
+    keys = ["memory", "heuristic", "ray_cache_kib"]
+    data = sorted_.groupby(keys, sort=False)["cycles_relative"].mean().reset_index()
+    base = alt.Chart(data).encode(
+        x=alt.X(
+            "ray_cache_kib:Q",
+            title="ray cache, KiB",
+            scale=alt.Scale(type="log", base=2, nice=False, padding=12),
+            axis=alt.Axis(format="~r"),
+        ),
+        y=alt.Y("cycles_relative:Q", title="cycles, none = 1", scale=alt.Scale(zero=False)),
+        color=_colour("heuristic", _order(data, "heuristic"), ""),
+    )
+    dots = base.mark_point(filled=True, size=60, opacity=0.9).encode(
+        tooltip=["heuristic:N", "ray_cache_kib:Q", alt.Tooltip("cycles_relative:Q", format=".3f")]
+    )
+    one = alt.Chart(data).mark_rule(color="#999", strokeDash=[3, 3]).encode(y=alt.datum(1.0))
+    memories = [m for m in MEMORIES if m in set(data["memory"])]
+    chart = (
+        alt.layer(one, base.mark_line(strokeWidth=1.5), dots, data=data)
+        .properties(width=200, height=200)
+        .facet(column=alt.Column("memory:N", sort=memories, title=None))
+    )
+    text = "Mean over the scenes, against the machine without sorting. Less is better."
+    return Plot("paper-size", "Length of the frame along the size of the ray cache", text, chart)
+
+
 def hardware_plots(machines: pd.DataFrame) -> list[Plot]:
     """Time, traffic and energy of sorting machines against the machine that does not sort."""
     shown = [
@@ -256,6 +285,8 @@ def hardware_plots(machines: pd.DataFrame) -> list[Plot]:
             text = "Against the machine without sorting and with the same memory. "
             text += "More is better." if column.startswith("p_t") else "Less is better."
             plots.append(Plot(name, title, text, _by_sorting(machines, column, axis)))
+    if machines["ray_cache_kib"].notna().any():
+        plots.insert(1, _by_size(machines))
     return plots
 
 

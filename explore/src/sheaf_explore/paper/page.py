@@ -104,16 +104,18 @@ def _docs_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
 
 
 def _seen_twice(findings: Findings) -> list[tuple[Claim, Case, Case]]:
-    """Claims of table 4 on a stand-in as committed, and seen from elsewhere."""
+    """Claims of table 4 that do not say the same of a stand-in seen from elsewhere."""
     committed = {
         (claim.name, case.scene, case.spot): case
         for claim in findings.claims
         for case in claim.cases
     }
     return [
-        (claim, committed[claim.name, case.stands_for, case.spot], case)
+        (claim, before, case)
         for claim in findings.elsewhere
         for case in claim.cases
+        for before in [committed[claim.name, case.stands_for, case.spot]]
+        if before.ours != case.ours
     ]
 
 
