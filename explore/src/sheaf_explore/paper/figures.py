@@ -22,10 +22,16 @@ _SOURCE = "who:N"
 _SMALL = 150  # width of one of many panels
 
 
-def _both(frame: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-    """Our rows and the paper's below each other, where there is a number."""
-    long = frame.melt(keys, ["ours", "paper"], var_name="who", value_name="value")
-    return long.dropna(subset=["value"])
+def _both(frame: pd.DataFrame, keys: list[str], once: bool = False) -> pd.DataFrame:
+    """Our rows and the paper's below each other, where there is a number.
+
+    With `once` the paper's stand beside the stand-in alone, not beside the real model as well.
+    """
+    names = [*keys, "stands_for"]
+    long = frame.melt(names, ["ours", "paper"], var_name="who", value_name="value")
+    known = long.dropna(subset=["value"])
+    twice = (known["who"] == "paper") & (known["scene"] != known["stands_for"])
+    return known[~twice] if once else known
 
 
 def _order(frame: pd.DataFrame, column: str) -> list[Any]:
@@ -61,7 +67,7 @@ def _lines(data: pd.DataFrame, x: Any, title: str, log: bool = False) -> Any:
 def figure2(table4: pd.DataFrame) -> Plot:
     """Coherence of the rays along the recursion level."""
     chosen = table4[(table4["heuristic"] == "none") & table4["measure"].isin(["c_t", "c_i"])]
-    data = _both(chosen, ["scene", "level", "measure"])
+    data = _both(chosen, ["scene", "level", "measure"], once=True)
     panels = [
         _lines(
             data[data["measure"] == measure],
@@ -126,7 +132,7 @@ def figure5(table4: pd.DataFrame) -> Plot:
 
 
 def _along_size(table2: pd.DataFrame, title: str, log: bool) -> Any:
-    data = _both(table2, ["scene", "packet_size"])
+    data = _both(table2, ["scene", "packet_size"], once=True)
     x = alt.X(
         "packet_size:Q",
         title="rays of a packet",
@@ -252,7 +258,7 @@ def _by_size(machines: pd.DataFrame) -> Plot:
             "ray_cache_kib:Q",
             title="ray cache, KiB",
             scale=alt.Scale(type="log", base=2, nice=False, padding=12),
-            axis=alt.Axis(format="~r"),
+            axis=alt.Axis(values=[4, 8, 16, 32, 64]),
         ),
         y=alt.Y("cycles_relative:Q", title="cycles, none = 1", scale=alt.Scale(zero=False)),
         color=_colour("heuristic", _order(data, "heuristic"), ""),
