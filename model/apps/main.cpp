@@ -11,8 +11,10 @@
 
 #include "apps/coefficients_command.h"
 #include "apps/memory_command.h"
+#include "apps/observation.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
+#include "apps/stability_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "energy/energy_report.h"
@@ -30,6 +32,7 @@ struct Commands {
   sheaf::RunOptions run;
   sheaf::MemoryOptions memory;
   sheaf::ReplayOptions replay;
+  sheaf::StabilityOptions stability;
   std::string info_scene;
   bool schema = false;
   bool resolve = false;
@@ -98,6 +101,7 @@ void declare(CLI::App& app, Commands& commands) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->check(CLI::IsMember({"rays", "memory"}));
+  sheaf::declare_observation(*run, commands.run.watch);
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
   declare_parent(*run, commands.run);
@@ -105,6 +109,7 @@ void declare(CLI::App& app, Commands& commands) {
 
   sheaf::declare_memory_command(app, commands.memory);
   declare_replay(app, commands.replay);
+  sheaf::declare_stability_command(app, commands.stability);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
@@ -140,6 +145,7 @@ int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
+  if (app.got_subcommand("stability")) return sheaf::stability_command(commands.stability);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("coefficients")) return sheaf::coefficients_command();
   std::fputs(

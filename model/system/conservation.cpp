@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "system/clocked_machine.h"
 #include "system/machine.h"
 
 namespace sheaf {
@@ -100,5 +101,6 @@ void MachineParts<Kind>::check_conservation() const {
 }
 
 template void MachineParts<TimedKind>::check_conservation() const;
+template void MachineParts<ClockedKind>::check_conservation() const;
 
 }  // namespace sheaf

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "system/machine_parts.h"
 
+#include "system/clocked_machine.h"
 #include "system/machine.h"
 #include "system/pipeline_parts.h"
 
@@ -36,5 +37,6 @@ void MachineParts<Kind>::finish_accounts(Cycles end) {
 }
 
 template class MachineParts<TimedKind>;
+template class MachineParts<ClockedKind>;
 
 }  // namespace sheaf
