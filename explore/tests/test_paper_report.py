@@ -45,7 +45,7 @@ def made(explore: Explore, sheaf: Path, folder: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(plan, "VARIANTS", (*plan.VARIANTS[:2], plan.VARIANTS[-1]))
     out = folder / "out"
     words = ["paper", "--scenes", ",".join(SCENES), "--size", "16x12", "--out", out]
-    done = explore(*words, "--sheaf", sheaf)
+    done = explore(*words, "--docs", folder / "docs", "--sheaf", sheaf)
     assert done.returncode == 0, done.stderr
     return out
 
@@ -62,6 +62,18 @@ def test_a_report_has_every_table_and_every_figure(made: Path) -> None:
         assert f'id="{anchor}"' in page
     for address in re.findall(r'href="([^"#:]+)"', page):
         assert (made / address).exists() or address == "data", address
+
+
+def test_a_page_of_documentation_has_its_images_and_whole_tables(made: Path) -> None:
+    folder = made.parent / "docs"
+    page = (folder / "paper.md").read_text()
+    images = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", page)
+    assert len(images) >= 9
+    assert all((folder / image).read_text().startswith("<svg") for image in images)
+    tables = re.findall(r"(?:^\|.*\|\n)+", page, re.MULTILINE)
+    assert len(tables) >= 10
+    for table in tables:
+        assert len({line.count("|") for line in table.splitlines()}) == 1, table
 
 
 def test_all_heuristics_find_the_same_rays(made: Path) -> None:

@@ -11,7 +11,7 @@ import pandas as pd
 from sheaf_explore.paper.hardware import PAYS, Verdict
 
 LIMITS = (
-    "Three scenes, one frame each, one point light, mirrors without roughness, recursion level 2. "
+    "Few scenes, one frame each, one point light, mirrors without roughness, recursion level 2. "
     "Rays scattered by rough surfaces or many lights would cohere less and leave more to gain.",
     "One size of machine: two traversal and two intersection units of eight lanes. Units that are "
     "wide compared with the memory gain less from fewer steps; narrow ones gain more.",
@@ -19,8 +19,8 @@ LIMITS = (
     "compares with all anchors at once. Real ones would cost more than is counted here.",
     "Credits are the same for all machines. A machine tuned for each sorting would move single "
     "figures by some percent.",
-    "mm² is of SRAM alone, at 45 nm, and energy leaves out what has no published coefficient: "
-    "control, clock tree, links and leakage among them.",
+    "mm² is of SRAM alone, at 45 nm, and energy is a floor: it leaves out what has no published "
+    "coefficient, control, clock tree, links and leakage among them.",
 )
 
 
