@@ -180,7 +180,7 @@ def gains_plot(gains: pd.DataFrame) -> Plot:
             x=alt.X("paper:Q", title="p_t over that of none, paper", scale=axis),
             y=alt.Y("ours:Q", title="p_t over that of none, here", scale=axis),
             color=_colour("heuristic", order, ""),
-            shape=alt.Shape("level:O", title="level", legend=alt.Legend(orient="bottom")),
+            shape=alt.Shape("level:N", title="level", legend=alt.Legend(orient="bottom")),
             tooltip=["scene:N", "level:O", "heuristic:N", "ours:Q", "paper:Q"],
         )
     )
@@ -236,7 +236,7 @@ def _by_sorting(machines: pd.DataFrame, column: str, title: str) -> Any:
         x=alt.X(f"{column}:Q", title=title, scale=alt.Scale(zero=False)),
         y=alt.Y("sorting:N", sort=sortings, title=None),
     )
-    one = base.mark_rule(color="#999", strokeDash=[3, 3]).encode(x=alt.datum(1.0), y=alt.Y())
+    one = alt.Chart(data).mark_rule(color="#999", strokeDash=[3, 3]).encode(x=alt.datum(1.0))
     dots = base.mark_point(filled=True, size=55, opacity=0.85).encode(
         color=_colour("scene", scenes, ""),
         tooltip=["scene:N", "memory:N", "sorting:N", alt.Tooltip(f"{column}:Q", format=".3f")],
