@@ -11,7 +11,7 @@ import pandas as pd
 from sheaf_explore.paper.hardware import PAYS, Verdict
 
 LIMITS = (
-    "Three scenes, one frame each, one point light, mirrors without roughness, recursion level 2. "
+    "Few scenes, one frame each, one point light, mirrors without roughness, recursion level 2. "
     "Rays scattered by rough surfaces or many lights would cohere less and leave more to gain.",
     "One size of machine: two traversal and two intersection units of eight lanes. Units that are "
     "wide compared with the memory gain less from fewer steps; narrow ones gain more.",
@@ -19,8 +19,8 @@ LIMITS = (
     "compares with all anchors at once. Real ones would cost more than is counted here.",
     "Credits are the same for all machines. A machine tuned for each sorting would move single "
     "figures by some percent.",
-    "mm² is of SRAM alone, at 45 nm, and energy leaves out what has no published coefficient: "
-    "control, clock tree, links and leakage among them.",
+    "mm² is of SRAM alone, at 45 nm, and energy is a floor: it leaves out what has no published "
+    "coefficient, control, clock tree, links and leakage among them.",
 )
 
 
@@ -43,12 +43,13 @@ def answer(machines: pd.DataFrame, found: list[Verdict]) -> list[str]:
     pays = [v for v in found if v.pays]
     listed = "; ".join(f"{v.scene} with {v.memory} ({v.best})" for v in pays)
     best = min(found, key=lambda v: v.time)
+    traffic = _change(best.traffic, "smaller", "larger")
     sentences = [
         f"Sorting shortens the frame by more than {PAYS:.0%} in {len(pays)} of {len(found)} pairs "
         f"of scene and memory{': ' + listed if listed else ''}.",
         f"The best case is {best.scene} with {best.memory}: {best.best} makes the frame "
-        f"{_change(best.time, 'shorter', 'longer')} and its DRAM traffic a ray "
-        f"{_change(best.traffic, 'smaller', 'larger')}.",
+        f"{_change(best.time, 'shorter', 'longer')}"
+        + ("." if math.isnan(best.traffic) else f" and its DRAM traffic a ray {traffic}."),
     ]
     return [*sentences, *_by_heuristic(machines), *_why(machines), *_energy(machines)]
 
