@@ -19,7 +19,7 @@ from sheaf_explore.paper.plan import HEURISTICS, MEMORIES, PACKET_SIZES
 _WIDE, _HIGH = 360, 260
 _SOURCES = ["ours", "paper"]
 _SOURCE = "who:N"
-_SMALL = 150  # width of one of many panels
+_ROW = 780  # width of a row of panels
 
 
 def _both(frame: pd.DataFrame, keys: list[str], once: bool = False) -> pd.DataFrame:
@@ -115,7 +115,7 @@ def figure5(table4: pd.DataFrame) -> Plot:
     )
     chart = (
         base.mark_point(size=45, filled=True, opacity=0.85)
-        .properties(width=_SMALL, height=96)
+        .properties(width=_ROW // len(scenes), height=96)
         .facet(
             column=alt.Column("scene:N", sort=scenes, title=None),
             row=alt.Row("level:O", title="recursion level"),

@@ -40,10 +40,15 @@ class Findings:
     processor_seconds: float  # that the runs took
 
     @property
+    def stand_in_ranks(self) -> pd.DataFrame:
+        """Rank correlations of the stand-ins, without the real models."""
+        ranks = self.tables["ranks"]
+        return ranks[ranks["scene"] == ranks["stands_for"]]
+
+    @property
     def median(self) -> float:
         """Median rank correlation of p_t over all stand-ins and levels."""
-        ranks = self.tables["ranks"]
-        return float(ranks[ranks["scene"] == ranks["stands_for"]]["spearman"].median())
+        return float(self.stand_in_ranks["spearman"].median())
 
 
 def find(plan: Plan, results: Results, runs: int, failed: int, seconds: float) -> Findings:
@@ -138,7 +143,7 @@ def _context(findings: Findings) -> dict[str, Any]:
         "claims": findings.claims,
         "elsewhere": findings.elsewhere,
         "explained": scene_or_model(made["table4"], made["gains"]),
-        "ranks": made["ranks"],
+        "pairs": len(findings.stand_in_ranks),
         "median": findings.median,
         "rank_grid": grids.ranks(made["ranks"]),
         "grids": table_grids(findings),
