@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::uint64_t kReads = 30'000;
 
-struct Run {
+struct Figures {
   double latency = 0, bandwidth = 0, hit_rate = 0;
 };
 
-Run run_sheaf(const DramDevice& device, StreamKind kind, Cycles gap) {
+Figures run_sheaf(const DramDevice& device, StreamKind kind, Cycles gap) {
   TraceRun run(device, 64);
   AccessStream stream({.kind = kind, .count = kReads, .gap = gap}, device);
   TraceAccess access;
@@ -34,7 +34,7 @@ Run run_sheaf(const DramDevice& device, StreamKind kind, Cycles gap) {
           static_cast<double>(r.channels.num_row_hits) / kReads};
 }
 
-Run run_by_cycles(const DramDevice& device, StreamKind kind, Cycles gap) {
+Figures run_by_cycles(const DramDevice& device, StreamKind kind, Cycles gap) {
   AccessStream stream({.kind = kind, .count = kReads, .gap = gap}, device);
   std::vector<DramLocation> places;
   TraceAccess access;
@@ -51,8 +51,8 @@ TEST_P(DramComparison, EqualsAControllerOfEveryCycleWhereItsQueueIsNotSaturated)
   const auto [kind, gap] = GetParam();
   if (gap < 16) GTEST_SKIP() << "which of several ready commands goes first matters there";
   const DramDevice device = ddr4([](DramSpec& s) { s.refresh = false; });
-  const Run sheaf = run_sheaf(device, kind, gap);
-  const Run reference = run_by_cycles(device, kind, gap);
+  const Figures sheaf = run_sheaf(device, kind, gap);
+  const Figures reference = run_by_cycles(device, kind, gap);
   EXPECT_DOUBLE_EQ(sheaf.latency, reference.latency);
   EXPECT_DOUBLE_EQ(sheaf.hit_rate, reference.hit_rate);
 }
@@ -60,8 +60,8 @@ TEST_P(DramComparison, EqualsAControllerOfEveryCycleWhereItsQueueIsNotSaturated)
 TEST_P(DramComparison, IsCloseToAControllerOfEveryCycleWithRefreshes) {
   const auto [kind, gap] = GetParam();
   const DramDevice device = ddr4();
-  const Run sheaf = run_sheaf(device, kind, gap);
-  const Run reference = run_by_cycles(device, kind, gap);
+  const Figures sheaf = run_sheaf(device, kind, gap);
+  const Figures reference = run_by_cycles(device, kind, gap);
   // With arrivals as fast as they are taken the wait is in front of the queue.
   EXPECT_NEAR(sheaf.latency, reference.latency, (gap == 0 ? 0.1 : 0.01) * reference.latency);
   EXPECT_NEAR(sheaf.bandwidth, reference.bandwidth, 0.01 * reference.bandwidth);
@@ -88,7 +88,7 @@ TEST(DramClosedForm, SeldomSequentialAccessIsAHitOfAnIdleBank) {
   const DramTiming& t = device.timing;
   const double hit = 1.0 + t.tCL + t.tBL;
   const double miss = hit + t.tRCD;  // once a row of 128 bursts; later rows of a bank conflict
-  const Run run = run_sheaf(device, StreamKind::kSequential, 500);
+  const Figures run = run_sheaf(device, StreamKind::kSequential, 500);
   EXPECT_GE(run.latency, hit + (miss - hit) / 128);
   EXPECT_LE(run.latency, hit + (miss - hit + t.tRP) / 128);
 }
