@@ -195,6 +195,7 @@ def machines(times: dict[str, float]) -> pd.DataFrame:
             "scene": "dragon",
             "memory": "DDR4",
             "heuristic": sorting.split(" ")[0],
+            "cells": int(sorting.split(" ")[-1]) if " " in sorting else 0,
             "sorting": sorting,
             "cycles_relative": time,
             "p_t_relative": 1.1,
@@ -214,8 +215,15 @@ def test_sorting_pays_if_the_best_machine_saves_more_than_a_percent() -> None:
     said = " ".join(answer.answer(frame, [verdict]))
     assert "in 1 of 1 pairs of scene and memory: dragon with DDR4 (dir × 8)" in said
     assert "2.0% shorter" in said
-    assert "DRAM traffic a ray 25% higher" in said
+    assert "p_t is 10% higher than without, and DRAM traffic a ray 25% higher" in said
+    assert "DDR4 0.98" in said
     assert "energy" not in said
+
+
+def test_the_answer_tells_what_the_size_of_the_ray_cache_does() -> None:
+    frame = machines({"none": 1.0, "mdir(96) × 8": 1.16, "mdir(96) × 96": 1.05, "dir × 8": 1.0})
+    said = " ".join(answer.answer(frame, hardware.verdicts(frame)))
+    assert "mdir(96) with 8, 96 cells takes 1.16, 1.05." in said
 
 
 def test_sorting_does_not_pay_for_less_than_a_percent() -> None:

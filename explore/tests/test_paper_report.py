@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Sheaf authors
 # SPDX-License-Identifier: Apache-2.0
-"""explore paper from end to end, at a tiny size on scenes of four triangles."""
+"""explore paper from end to end, at a tiny size on scenes of a few triangles."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from conftest import Explore
-from scene_maker import tiny_gltf
+from scene_maker import stairs, tiny_gltf
 from test_report import browse, CHROMIUM
 
 from sheaf_explore.paper import command, plan
@@ -38,14 +38,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def made(explore: Explore, sheaf: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The report, made by the first test that asks for it."""
     for name in SCENES:
-        (folder / f"{name}.glb").write_bytes(glb(tiny_gltf()))
+        (folder / f"{name}.glb").write_bytes(glb(tiny_gltf(stairs(6))))
     monkeypatch.setattr(command, "_folder_of_scenes", lambda: folder)
     # Fewer machines and variants: each is made the same way.
     monkeypatch.setattr(plan, "MEMORIES", MEMORIES)
     monkeypatch.setattr(plan, "VARIANTS", (*plan.VARIANTS[:2], plan.VARIANTS[-1]))
     out = folder / "out"
     words = ["paper", "--scenes", ",".join(SCENES), "--size", "16x12", "--out", out]
-    done = explore(*words, "--sheaf", sheaf)
+    done = explore(*words, "--docs", folder / "docs", "--sheaf", sheaf)
     assert done.returncode == 0, done.stderr
     return out
 
@@ -62,6 +62,18 @@ def test_a_report_has_every_table_and_every_figure(made: Path) -> None:
         assert f'id="{anchor}"' in page
     for address in re.findall(r'href="([^"#:]+)"', page):
         assert (made / address).exists() or address == "data", address
+
+
+def test_a_page_of_documentation_has_its_images_and_whole_tables(made: Path) -> None:
+    folder = made.parent / "docs"
+    page = (folder / "paper.md").read_text()
+    images = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", page)
+    assert len(images) >= 9
+    assert all((folder / image).read_text().startswith("<svg") for image in images)
+    tables = re.findall(r"(?:^\|.*\|\n)+", page, re.MULTILINE)
+    assert len(tables) >= 10
+    for table in tables:
+        assert len({line.count("|") for line in table.splitlines()}) == 1, table
 
 
 def test_all_heuristics_find_the_same_rays(made: Path) -> None:

@@ -17,7 +17,6 @@ struct MachineRun {
   Cycles cycles = 0;
   std::uint64_t picture = 0;  ///< hash of all pixels
   std::uint64_t rays = 0;     ///< hash of the ray counts by kind and depth
-  std::uint64_t steps = 0;    ///< issue slots of the traversal units
 };
 
 /// A small scene with mirrors, glass and a light, prepared for pictures of 16 × 16 pixels in the

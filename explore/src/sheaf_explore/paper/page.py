@@ -35,16 +35,20 @@ class Findings:
     claims: list[Claim]
     elsewhere: list[Claim]  # those of table 4, checked on other views of the scenes
     verdicts: list[Verdict]
-    energy_of: str  # what the energy column holds; empty if there is none
     runs: int
     failed: int
     processor_seconds: float  # that the runs took
 
     @property
+    def stand_in_ranks(self) -> pd.DataFrame:
+        """Rank correlations of the stand-ins, without the real models."""
+        ranks = self.tables["ranks"]
+        return ranks[ranks["scene"] == ranks["stands_for"]]
+
+    @property
     def median(self) -> float:
         """Median rank correlation of p_t over all stand-ins and levels."""
-        ranks = self.tables["ranks"]
-        return float(ranks[ranks["scene"] == ranks["stands_for"]]["spearman"].median())
+        return float(self.stand_in_ranks["spearman"].median())
 
 
 def find(plan: Plan, results: Results, runs: int, failed: int, seconds: float) -> Findings:
@@ -67,8 +71,7 @@ def find(plan: Plan, results: Results, runs: int, failed: int, seconds: float) -
     made["claims"] = frame_of(claims)
     machines = made["machines"]
     found = hardware.verdicts(machines) if len(machines) else []
-    energy_of = hardware.ENERGIES.get(hardware.energy_counter(plan, results), "")
-    return Findings(plan, made, claims, elsewhere, found, energy_of, runs, failed, seconds)
+    return Findings(plan, made, claims, elsewhere, found, runs, failed, seconds)
 
 
 def table_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
@@ -104,16 +107,18 @@ def _docs_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
 
 
 def _seen_twice(findings: Findings) -> list[tuple[Claim, Case, Case]]:
-    """Claims of table 4 on a stand-in as committed, and seen from elsewhere."""
+    """Claims of table 4 that do not say the same of a stand-in seen from elsewhere."""
     committed = {
         (claim.name, case.scene, case.spot): case
         for claim in findings.claims
         for case in claim.cases
     }
     return [
-        (claim, committed[claim.name, case.stands_for, case.spot], case)
+        (claim, before, case)
         for claim in findings.elsewhere
         for case in claim.cases
+        for before in [committed[claim.name, case.stands_for, case.spot]]
+        if before.ours != case.ours
     ]
 
 
@@ -121,11 +126,6 @@ def _context(findings: Findings) -> dict[str, Any]:
     made = findings.tables
     machines = made["machines"]
     paper, explaining, hardware_plots = figures.all_figures(made, made["gains"])
-    energy = (
-        f"Energy is that of {findings.energy_of}."
-        if findings.energy_of
-        else "Energy is not in it: this simulator reports none."
-    )
     return {
         "plan": findings.plan,
         "scenes": [scene.name for scene in findings.plan.scenes],
@@ -133,7 +133,7 @@ def _context(findings: Findings) -> dict[str, Any]:
         "failed": findings.failed,
         "csv": [f"{name}.csv" for name in made],
         "answer": answer.answer(machines, findings.verdicts),
-        "limits": [*answer.LIMITS, energy],
+        "limits": answer.LIMITS,
         "verdicts": findings.verdicts,
         "verdict_grid": grids.verdicts(findings.verdicts),
         "sram_grid": grids.sram(machines) if len(machines) else None,
@@ -143,7 +143,7 @@ def _context(findings: Findings) -> dict[str, Any]:
         "claims": findings.claims,
         "elsewhere": findings.elsewhere,
         "explained": scene_or_model(made["table4"], made["gains"]),
-        "ranks": made["ranks"],
+        "pairs": len(findings.stand_in_ranks),
         "median": findings.median,
         "rank_grid": grids.ranks(made["ranks"]),
         "grids": table_grids(findings),

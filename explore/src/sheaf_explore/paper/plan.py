@@ -103,6 +103,7 @@ SORTINGS = (
     ("none", 0),
     ("dir", 8),
     ("mdir(24)", 24),
+    ("mdir(96)", 8),
     ("mdir(96)", 24),
     ("mdir(96)", 96),
     ("fastpos", 8),
