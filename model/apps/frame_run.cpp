@@ -16,6 +16,7 @@
 #include "report/stats_json.h"
 #include "report/summary.h"
 #include "scene/load_gltf.h"
+#include "system/clocked_machine.h"
 #include "system/coherence.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
@@ -67,8 +68,9 @@ class Stopwatch {
 };
 
 /// Simulates; fills the frame and the statistics. Returns true if the frame is complete.
-bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
+bool simulate(const FrameJob& job, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
               FrameGuest* guest, StatsTree& stats) {
+  const Config& config = job.config;
   Progress progress;
   const RunHooks hooks = guest != nullptr ? guest->hooks() : RunHooks{};
   const auto stop = [&] { return interrupt_seen != 0 || (guest != nullptr && guest->failed()); };
@@ -81,13 +83,21 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
     pipeline.report(stats);
     return complete;
   }
+  const auto run = [&](auto& machine) {
+    const bool complete = machine.run([&](double share, Cycles now) {
+      progress.update(share, fmt::format("cycle {}", now));
+      return stop();
+    });
+    machine.report(stats);
+    return complete;
+  };
+  if (config.run.fidelity == Fidelity::kClocked) {
+    ClockedMachine machine(config, plan, scene, frame, hooks);
+    return run(machine);
+  }
   Machine machine(config, plan, scene, frame, hooks);
-  const bool complete = machine.run([&](double share, Cycles now) {
-    progress.update(share, fmt::format("cycle {}", now));
-    return stop();
-  });
-  machine.report(stats);
-  return complete;
+  for (MachineObserver* observer : job.observers) machine.observe(*observer);
+  return run(machine);
 }
 
 }  // namespace
@@ -131,7 +141,7 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   report_scene(scene, plan, stats);
   const std::unique_ptr<FrameGuest> guest = job.guest ? job.guest(scene, frame) : nullptr;
   const Stopwatch run_watch;
-  const bool complete = simulate(config, plan, scene, frame, guest.get(), stats);
+  const bool complete = simulate(job, plan, scene, frame, guest.get(), stats);
   const double run_seconds = run_watch.seconds();
   report_rays(frame.rays, stats);
   report_energy(config, plan, stats);

@@ -11,6 +11,7 @@
 
 #include "apps/coefficients_command.h"
 #include "apps/memory_command.h"
+#include "apps/observation.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
 #include "apps/stability_command.h"
@@ -100,6 +101,7 @@ void declare(CLI::App& app, Commands& commands) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->check(CLI::IsMember({"rays", "memory"}));
+  sheaf::declare_observation(*run, commands.run.watch);
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
   declare_parent(*run, commands.run);

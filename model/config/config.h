@@ -14,7 +14,14 @@ namespace sheaf {
 // The structs below only hold values: names, defaults, ranges, units and meanings of all parameters
 // are declared in parameters.cpp, and `sheaf config` prints them.
 
-enum class Fidelity : std::uint8_t { kFunctional, kAnalytic, kSampled, kDecoupled, kTimed };
+enum class Fidelity : std::uint8_t {
+  kFunctional,
+  kAnalytic,
+  kSampled,
+  kDecoupled,
+  kTimed,
+  kClocked
+};
 enum class Scheme : std::uint8_t { kSingle, kMasked, kInterval, kIntervalEntry, kOmni };
 enum class FlowPolicy : std::uint8_t { kTile, kCredits, kSpill };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };

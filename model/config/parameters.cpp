@@ -8,15 +8,18 @@ namespace sheaf {
 namespace {
 
 void declare_run(ParameterTable& t, Config& c) {
-  t.choice("run.fidelity", c.run.fidelity, Fidelity::kTimed,
-           {{"functional", Fidelity::kFunctional},
-            {"analytic", Fidelity::kAnalytic},
-            {"sampled", Fidelity::kSampled},
-            {"decoupled", Fidelity::kDecoupled},
-            {"timed", Fidelity::kTimed}},
-           "How much of time is simulated: none (same pipeline, untimed); none, with bounds on the "
-           "cycles from counts; a random sample of tiles; event-driven cycles with units that run "
-           "ahead by run.quantum; or event-driven cycles");
+  t.choice(
+      "run.fidelity", c.run.fidelity, Fidelity::kTimed,
+      {{"functional", Fidelity::kFunctional},
+       {"analytic", Fidelity::kAnalytic},
+       {"sampled", Fidelity::kSampled},
+       {"decoupled", Fidelity::kDecoupled},
+       {"timed", Fidelity::kTimed},
+       {"clocked", Fidelity::kClocked}},
+      "How much of time is simulated: none (same pipeline, untimed); none, with bounds on the "
+      "cycles from counts; a random sample of tiles; event-driven cycles with units that run "
+      "ahead by run.quantum; event-driven cycles; or every unit ticking in every cycle, which is "
+      "the reference and slow");
   t.count("run.quantum", c.run.quantum, 16, 0, kMaxLatency, "cycles",
           "decoupled: how much further units run ahead of each other than is exact");
   t.real("run.sample_share", c.run.sample_share, 0.1, 1e-6, 1.0, "1",

@@ -9,6 +9,7 @@
 #include "channels/clock_domain.h"
 #include "memory/l2_cache.h"
 #include "memory/main_memory.h"
+#include "system/machine_observer.h"
 #include "system/machine_parts.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
@@ -18,6 +19,7 @@
 #include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -57,19 +59,27 @@ class Machine : public MachineParts<TimedKind> {
   /// progress, Error(kBug) if a conservation check fails.
   bool run(const Monitor& monitor);
 
+  /// Adds an observer; to be called before run().
+  void observe(MachineObserver& observer);
+
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 
  private:
   void build_memory();
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void connect_shader_cache();
   [[nodiscard]] std::string describe_stuck() const;
   [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
+  [[nodiscard]] MachineProbes probes();
+  void probe_units(MachineProbes& probes) const;
+  void probe_links(MachineProbes& probes) const;
 
   ClockDomain domain_;
+  std::vector<MachineObserver*> observers_;
 };
 
 }  // namespace sheaf

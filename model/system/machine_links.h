@@ -29,8 +29,34 @@ struct MachineLinks {
   Channels<RayPacket*> shader_cache_to_shader;     ///< one per shader unit
   std::unique_ptr<Link<FilmBatch*>> shader_to_film;
   std::unique_ptr<Link<SpawnBundle*>> spawned_rays;
+  std::unique_ptr<Link<SpawnBundle*>> spill_to_regrouper;  ///< only with a spill unit
   std::unique_ptr<Link<LineRequest>> caches_to_l2;
   Channels<LineResponse> l2_to_caches;  ///< one per requester
+
+  /// Calls f(link) for each that has been built.
+  template <typename F>
+  void for_each(F&& f) const {
+    const auto one = [&](const auto& link) {
+      if (link) f(*link);
+    };
+    const auto all = [&](const auto& links) {
+      for (const auto& link : links) f(*link);
+    };
+    one(source_to_arbiter);
+    one(packet_fifo);
+    one(traversal_to_arbiter);
+    all(arbiter_to_traversal);
+    all(traversal_to_intersection);
+    all(intersection_to_traversal);
+    all(traversal_to_shader);
+    all(traversal_to_shader_cache);
+    all(shader_cache_to_shader);
+    one(shader_to_film);
+    one(spawned_rays);
+    one(spill_to_regrouper);
+    one(caches_to_l2);
+    all(l2_to_caches);
+  }
 };
 
 }  // namespace sheaf

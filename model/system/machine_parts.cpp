@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "system/machine_parts.h"
 
+#include "system/clocked_machine.h"
 #include "system/machine.h"
 #include "system/pipeline_parts.h"
 
@@ -33,8 +34,10 @@ void MachineParts<Kind>::finish_accounts(Cycles end) {
   if (shader_cache_) shader_cache_->finish(end);
   if (ray_cache_) ray_cache_->finish(end);
   if (spawn_router_) spawn_router_->finish(end);
+  if (spill_) spill_->finish(end);
 }
 
 template class MachineParts<TimedKind>;
+template class MachineParts<ClockedKind>;
 
 }  // namespace sheaf

@@ -25,6 +25,10 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
 
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  /// The job of a context that is held.
+  [[nodiscard]] const LeafJob& job(int context) const {
+    return contexts_[static_cast<std::size_t>(context)].job;
+  }
   [[nodiscard]] std::string stuck_reason() const override;
 
  private:
@@ -42,7 +46,7 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
+  bool fetch(int context, Address first, Bytes bytes, DataKind kind, Cycles& port_cycles,
              Cycles now);
 
   const TracedScene scene_;

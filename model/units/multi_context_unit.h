@@ -45,7 +45,8 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
-  Cycles wake(Cycles now) final {
+  // Flattened: a wake-up is a few short calls, each of which would save and restore registers.
+  [[gnu::flatten]] Cycles wake(Cycles now) final {
     // What arrives behind the unit's own time found no free context until then.
     if (now <= latest_ && !resumes_) return latest_ + 1;
     resumes_ = false;
@@ -59,8 +60,7 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
       }
       now = next_event();
       if (now < bound_) continue;
-      bound_ = safe_until();
-      if (now >= bound_) break;
+      if (now >= domain_.end() || !is_safe(now)) break;
     }
     domain_.happened(latest_);
     return now;
@@ -73,6 +73,14 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     stalls_.finish(end);
   }
   [[nodiscard]] int num_held() const { return std::popcount(held_); }
+
+  // As of cycle `now`, up to which everything has been done.
+  [[nodiscard]] StallCause cause_at(Cycles now) const {
+    return busy_until_ > now ? StallCause::kBusy : waiting_cause();
+  }
+  [[nodiscard]] bool port_taken_at(Cycles now) const { return port_free_ > now; }
+  /// Bit i: context i is held.
+  [[nodiscard]] std::uint64_t held_contexts() const { return held_; }
 
  protected:
   MultiContextUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
@@ -141,15 +149,18 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   }
   void answered(int context) { awaiting_ &= ~(std::uint64_t{1} << context); }
   [[nodiscard]] std::uint64_t awaiting() const { return awaiting_; }
-  /// The earliest answer that one of these contexts, or line that one of these parked ones, can get
-  /// over links of this lookahead.
-  [[nodiscard]] Cycles earliest_answer(std::uint64_t contexts, const Lookahead& links) const {
-    if (contexts == 0) return kNever;
-    Cycles earliest = kNever;
+  /// The least of `input` and of the earliest answer that one of these contexts, or line that one
+  /// of these parked ones, can get over links of this lookahead.
+  [[nodiscard]] Cycles or_answer(Cycles input, std::uint64_t contexts,
+                                 const Lookahead& links) const {
+    if (contexts == 0) return input;
+    const Cycles over_links = links.earliest();
+    if (over_links >= input) return input;
+    Cycles awaited = kNever;
     for (std::uint64_t left = contexts; left != 0; left &= left - 1) {
-      earliest = std::min(earliest, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
+      awaited = std::min(awaited, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
     }
-    return std::max(earliest, links.earliest());
+    return std::min(input, std::max(awaited, over_links));
   }
 
   // Contexts that a full channel holds up.
@@ -177,14 +188,16 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   const std::uint32_t slots_per_step_;
 
  private:
-  [[nodiscard]] Cycles safe_until() {
-    const Cycles others = domain_.horizon();
+  // Looks up the bound as far as is needed to tell whether `next` is below it.
+  [[nodiscard]] bool is_safe(Cycles next) {
+    bound_ = std::min(domain_.horizon(), domain_.end());
+    if (next < bound_) return true;
     // A blocked context may be let go at any time.
-    if (blocked_ != 0 || domain_.in_step()) return others;
+    if (blocked_ != 0 || domain_.in_step()) return false;
     const Cycles input = static_cast<Derived&>(*this).earliest_input();
-    return std::min({std::max(others, input), domain_.limit(), domain_.end()});
+    bound_ = std::max(bound_, std::min({input, domain_.limit(), domain_.end()}));
+    return next < bound_;
   }
-
   [[nodiscard]] Cycles next_event() const {
     const Cycles next = std::min(agenda_.next(), inbox_.next());
     return ready_.is_empty() ? next : std::min(next, port_free_);

@@ -52,6 +52,10 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   /// Unbound if nothing in the scene spawns a ray.
   sc_core::sc_port<TimedOut<SpawnBundle*>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> out_bundles;
 
+  /// The packet of a context that is held.
+  [[nodiscard]] const RayPacket* packet(int context) const {
+    return contexts_[static_cast<std::size_t>(context)].packet;
+  }
   [[nodiscard]] const PrivateCache& attribute_cache() const { return attributes_; }
   /// Null if the scene has no textures.
   [[nodiscard]] const PrivateCache* texture_cache() const {

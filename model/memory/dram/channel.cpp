@@ -26,6 +26,7 @@ DramChannel::DramChannel(const DramDevice& device)
     const Cycles share = Cycles{device.timing.tREFI} * (rank + 1) / refresh_at_.size();
     refresh_at_[rank] = device.refresh ? share : kNever;
   }
+  scheduler_.set_refreshes(refresh_at_);
 }
 
 void DramChannel::advance(Cycles until, std::vector<DramDone>& done) {
@@ -119,7 +120,7 @@ void DramChannel::accept(Cycles now, std::vector<DramDone>& done) {
   ++(request.write ? stats_.num_writes : stats_.num_reads);
   (request.write ? writes_ : reads_).push(request, now, num_accepted_++);
   scheduler_.touch(request.bank);
-  choice_valid_ = false;
+  choice_valid_ = choice_valid_ && scheduler_.remains_best(choice_, request);
   stats_.max_queued = std::max<std::uint64_t>(stats_.max_queued, num_queued());
 }
 
@@ -131,8 +132,7 @@ void DramChannel::count_occupancy(Cycles now) {
 const DramChannel::Choice& DramChannel::choose() {
   if (!choice_valid_) {
     // A change of direction can make a command due that could have been issued long ago.
-    choice_ =
-        scheduler_.choose(std::max(row_bus_at_, now_), std::max(column_bus_at_, now_), refresh_at_);
+    choice_ = scheduler_.choose(buses());
     consider_refreshes(choice_);
     choice_valid_ = true;
   }
@@ -201,6 +201,7 @@ void DramChannel::issue(const Choice& choice, std::vector<DramDone>& done) {
       scheduler_.touch_all();
       banks_.refresh(choice.bank, now_);
       refresh_at_[choice.bank] += device_.timing.tREFI;
+      scheduler_.set_refreshes(refresh_at_);
       stats_.refresh_cycles += device_.timing.tRFC;
       ++stats_.num_refreshes;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <vector>
@@ -73,6 +74,9 @@ class DramChannel {
   void issue_column(const Choice& choice, std::vector<DramDone>& done);
   void count_outcome(BankTiming::Bank& bank);
   void count_occupancy(Cycles now);
+  [[nodiscard]] DramScheduler::Buses buses() const {
+    return {std::max(row_bus_at_, now_), std::max(column_bus_at_, now_)};
+  }
   [[nodiscard]] BankLists& queue() { return scheduler_.writing() ? writes_ : reads_; }
   void report(const Choice& choice, DramCommand command);
 

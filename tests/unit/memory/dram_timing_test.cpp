@@ -137,6 +137,12 @@ TEST(DramTiming, ReadsOfTwoBankGroupsKeepTccdSApart) {
       between(C::kRead, C::kRead), 0, [](DramSpec& s) { s.timing.tCCD_L = 4 * kLarge; });
 }
 
+TEST(DramTiming, WritesOfTwoBankGroupsKeepTccdSApart) {
+  expect_gap(
+      &DramTiming::tCCD_S, [](ChannelBench& b) { b.write(0, {.group = 0}).write(0, {.group = 1}); },
+      between(C::kWrite, C::kWrite), 0, [](DramSpec& s) { s.timing.tCCD_L = 4 * kLarge; });
+}
+
 TEST(DramTiming, ActivatesOfOneBankGroupKeepTrrdLApart) {
   expect_gap(
       &DramTiming::tRRD_L, [](ChannelBench& b) { b.read(0, {.bank = 0}).read(0, {.bank = 1}); },
@@ -202,6 +208,25 @@ TEST(DramTiming, ReadsOfTwoRanksLeaveTrtrsBetweenTheirData) {
   expect_gap(
       &DramTiming::tRTRS, [](ChannelBench& b) { b.read(0, {.rank = 0}).read(0, {.rank = 1}); },
       between(C::kRead, C::kRead), 1, [](DramSpec& s) { s.ranks = 2; });
+}
+
+TEST(DramTiming, WritesOfTwoRanksLeaveTrtrsBetweenTheirData) {
+  expect_gap(
+      &DramTiming::tRTRS, [](ChannelBench& b) { b.write(0, {.rank = 0}).write(0, {.rank = 1}); },
+      between(C::kWrite, C::kWrite), 1, [](DramSpec& s) { s.ranks = 2; });
+}
+
+// The data of a read begin tCL after it, those of a write tCWL: both are 3 here.
+TEST(DramTiming, WriteOfAnotherRankLeavesTrtrsAfterTheDataOfARead) {
+  expect_gap(
+      &DramTiming::tRTRS, [](ChannelBench& b) { b.read(0, {.rank = 0}).write(1, {.rank = 1}); },
+      between(C::kRead, C::kWrite), 1, [](DramSpec& s) { s.ranks = 2; });
+}
+
+TEST(DramTiming, ReadOfAnotherRankLeavesTrtrsAfterTheDataOfAWrite) {
+  expect_gap(
+      &DramTiming::tRTRS, [](ChannelBench& b) { b.write(0, {.rank = 0}).read(5, {.rank = 1}); },
+      between(C::kWrite, C::kRead), 1, [](DramSpec& s) { s.ranks = 2; });
 }
 
 TEST(DramTiming, ActivateWaitsForTrfcAfterARefresh) {
