@@ -53,6 +53,7 @@ struct StabilityCase {
 [[nodiscard]] std::vector<StabilityCase> sum_cases();
 [[nodiscard]] std::vector<StabilityCase> machine_cases();
 [[nodiscard]] std::vector<StabilityCase> input_cases();
+[[nodiscard]] std::vector<StabilityCase> precision_cases();
 
 /// γ(n) = n u / (1 - n u) for floats, u = 2^-24: how far n roundings can take a product or a sum
 /// relatively (Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., lemma 3.1).
