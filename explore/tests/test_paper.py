@@ -241,6 +241,14 @@ def test_numbers_have_three_digits(value: float, text: str) -> None:
     assert grids.number(value) == text
 
 
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.124, "+12%"), (-0.3, "−30%"), (-0.004, "0%"), (0.0, "0%"), (math.nan, "")],
+)
+def test_differences_have_a_sign_unless_there_is_none(value: float, text: str) -> None:
+    assert grids.percent(value) == text
+
+
 def test_a_cell_says_how_far_it_is_from_the_paper() -> None:
     cell = grids.compared(4.5, 5.0)
     assert (cell.ours, cell.paper, cell.difference) == ("4.50", "5.00", "−10%")

@@ -58,7 +58,10 @@ def number(value: float, digits: int = 3) -> str:
 
 def percent(value: float) -> str:
     """A relative difference with its sign."""
-    return "" if math.isnan(value) else f"{value:+.0%}".replace("-", "−")
+    if math.isnan(value):
+        return ""
+    text = f"{value:+.0%}".replace("-", "−")
+    return "0%" if text[1:] == "0%" else text
 
 
 def compared(ours: float, paper: float, difference: float | None = None) -> Cell:
