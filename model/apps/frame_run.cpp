@@ -16,10 +16,12 @@
 #include "report/summary.h"
 #include "scene/load_gltf.h"
 #include "system/coherence.h"
+#include "system/estimate_report.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
 #include "system/report_parts.h"
 #include "system/reported_values.h"
+#include "system/sampled_frame.h"
 
 namespace sheaf {
 namespace {
@@ -71,6 +73,26 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
   Progress progress;
   const RunHooks hooks = guest != nullptr ? guest->hooks() : RunHooks{};
   const auto stop = [&] { return interrupt_seen != 0 || (guest != nullptr && guest->failed()); };
+  if (config.run.fidelity == Fidelity::kAnalytic) {
+    AnalyticModel model(config, scene);
+    FunctionalPipeline pipeline(config, plan, scene, frame, hooks, &model);
+    const bool complete = model.run(pipeline, [&](double share) {
+      progress.update(share, "tracing");
+      return stop();
+    });
+    pipeline.report(stats);
+    if (complete) report_analytic(model, config, stats);
+    return complete;
+  }
+  if (config.run.fidelity == Fidelity::kSampled) {
+    SampledFrame sampled(config, plan, scene, frame);
+    const bool complete = sampled.run([&](double share, Cycles now) {
+      progress.update(share, fmt::format("cycle {}", now));
+      return stop();
+    });
+    sampled.report(stats);
+    return complete;
+  }
   if (config.run.fidelity == Fidelity::kFunctional) {
     FunctionalPipeline pipeline(config, plan, scene, frame, hooks);
     const bool complete = pipeline.run([&](double share) {

@@ -60,6 +60,14 @@ class CacheArray {
     return {true, last.dirty, last.tag - 1};
   }
 
+  /// Forgets a line, dirty or not, if it is there.
+  void remove(std::uint64_t line) {
+    if (!touch(line)) return;
+    Entry* const set = set_of(line);
+    std::rotate(set, set + 1, set + ways_);
+    set[ways_ - 1] = {};
+  }
+
   /// Calls f(line) for every dirty line, in the order of the sets, and cleans it.
   template <typename F>
   void clean_all(F&& f) {

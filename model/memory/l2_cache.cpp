@@ -225,6 +225,15 @@ tlm::tlm_sync_enum L2Cache::nb_transport_bw(tlm::tlm_generic_payload& payload,
   return tlm::TLM_COMPLETED;
 }
 
+void L2Cache::load(const std::vector<CacheArray>& banks) {
+  for (std::size_t i = 0; i < banks_.size(); ++i) {
+    banks_[i].array = banks[i];
+    for (std::size_t mshr = 0; mshr < banks_[i].num_mshrs; ++mshr) {
+      banks_[i].array.remove(index_in_bank(banks_[i].mshrs[mshr].line));
+    }
+  }
+}
+
 bool L2Cache::is_idle() const {
   const bool banks_idle = std::all_of(banks_.begin(), banks_.end(), [](const Bank& bank) {
     return bank.queue.empty() && bank.num_mshrs == 0;

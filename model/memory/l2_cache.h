@@ -72,6 +72,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Takes over the tags of banks of the same shape, but for lines that are on their way; counts
+  /// nothing.
+  void load(const std::vector<CacheArray>& banks);
+
   [[nodiscard]] const L2Stats& stats() const { return stats_; }
   [[nodiscard]] const L2KindStats& kind_stats(DataKind kind) const {
     return kind_stats_[static_cast<std::size_t>(kind)];

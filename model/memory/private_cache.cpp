@@ -81,6 +81,11 @@ void PrivateCache::write_back(std::uint64_t line, Cycles now) {
                         now, requester_);
 }
 
+void PrivateCache::load(const CacheArray& tags) {
+  array_ = tags;
+  for (std::uint32_t i = 0; i < num_mshrs_used_; ++i) array_.remove(mshrs_[i].line);
+}
+
 std::vector<std::uint64_t> PrivateCache::take_dirty_lines() {
   std::vector<std::uint64_t> lines;
   array_.clean_all([&](std::uint64_t line) { lines.push_back(line); });

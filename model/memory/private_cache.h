@@ -77,6 +77,10 @@ class PrivateCache {
   [[nodiscard]] std::vector<std::uint64_t> take_dirty_lines();
   void write_back(std::uint64_t line, Cycles now);
 
+  /// Takes over the tags of a cache of the same shape, but for lines that are on their way; counts
+  /// nothing.
+  void load(const CacheArray& tags);
+
   [[nodiscard]] bool has_pending() const { return num_mshrs_used_ != 0; }
   [[nodiscard]] const CacheStats& stats() const { return stats_; }
   [[nodiscard]] const CacheKindStats& kind_stats(DataKind kind) const {

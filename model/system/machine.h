@@ -15,8 +15,10 @@
 #include "stats/report_tree.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
+#include "system/observation.h"
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
+#include "system/tag_hierarchy.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
 #include "units/packet_arbiter.h"
@@ -48,6 +50,14 @@ class Machine {
   bool run(const Monitor& monitor);
 
   void report(StatsTree& stats) const;
+
+  /// What has been counted up to now, or, after the run, in all.
+  [[nodiscard]] Observation observe(Cycles now) const;
+  /// Makes the caches hold what `tags` says, but for what is on its way; nothing is counted. For a
+  /// run that leaves something out.
+  void load_caches(const TagHierarchy& tags);
+  /// Length of the run, once it has ended.
+  [[nodiscard]] Cycles end() const { return end_; }
 
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 

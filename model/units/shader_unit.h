@@ -53,10 +53,12 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   sc_core::sc_port<TimedOut<SpawnBundle*>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> out_bundles;
 
   [[nodiscard]] const PrivateCache& attribute_cache() const { return attributes_; }
+  [[nodiscard]] PrivateCache& attribute_cache() { return attributes_; }
   /// Null if the scene has no textures.
   [[nodiscard]] const PrivateCache* texture_cache() const {
     return textures_ ? &*textures_ : nullptr;
   }
+  [[nodiscard]] PrivateCache* texture_cache() { return textures_ ? &*textures_ : nullptr; }
   [[nodiscard]] std::string stuck_reason() const override;
 
  private:

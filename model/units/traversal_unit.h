@@ -61,6 +61,7 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   [[nodiscard]] const TraceCounts& primary_counts() const { return primary_counts_; }
   [[nodiscard]] const TraceCounts& secondary_counts() const { return secondary_counts_; }
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  [[nodiscard]] PrivateCache& cache() { return cache_; }
   [[nodiscard]] std::string stuck_reason() const override;
 
  private:
