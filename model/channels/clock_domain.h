@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "channels/calendar.h"
+#include "channels/cycle_observer.h"
 #include "channels/lookahead.h"
 
 namespace sheaf {
@@ -73,6 +74,9 @@ class ClockDomain : public sc_core::sc_module {
   void forbid_running_ahead() { in_step_ = true; }
   [[nodiscard]] bool in_step() const { return in_step_; }
 
+  /// Adds an observer; to be called before the simulation starts.
+  void observe(CycleObserver& observer);
+
   /// An agent did something at this cycle, which may lie ahead of the calendar.
   void happened(Cycles when) { latest_ = std::max(latest_, when); }
   /// The last cycle in which any agent did something.
@@ -117,6 +121,8 @@ class ClockDomain : public sc_core::sc_module {
  private:
   void advance();
   void run_until(Cycles limit);
+  void show(Cycles cycle);
+  void find_next_observed(Cycles from);
   void finish();
   [[nodiscard]] Cycles next_foreign_cycle() const;
 
@@ -124,6 +130,9 @@ class ClockDomain : public sc_core::sc_module {
   Calendar calendar_;
   LinkMap links_;
   std::vector<Agent*> agents_;
+  std::vector<CycleObserver*> observers_;
+  Cycles observed_ = kNever;  ///< the next cycle to be observed
+  bool kernel_follows_ = false;
   std::function<bool(Cycles)> monitor_;
   Cycles now_ = 0;
   Cycles latest_ = 0;

@@ -212,7 +212,7 @@ void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles at) 
 
 void L2Cache::dram_done(const tlm::tlm_generic_payload& payload, Cycles at) {
   if (payload.is_write()) return;
-  fills_.push({at, num_fills_++, payload.get_address()});
+  fills_.push({at, payload.get_address()});
   inbox_.nudge(at);
 }
 

@@ -100,14 +100,12 @@ class L2Cache final : public sc_core::sc_module, public Agent {
     Cycles free_at = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
   };
-  /// A line on its way from DRAM.
+  /// A line on its way from DRAM. Of those that come in the same cycle the lowest address is first,
+  /// in whatever order a memory of several channels gave notice of them.
   struct Fill {
     Cycles at = 0;
-    std::uint64_t rank = 0;
     Address address = 0;
-    bool operator>(const Fill& other) const {
-      return at != other.at ? at > other.at : rank > other.rank;
-    }
+    auto operator<=>(const Fill&) const = default;
   };
 
   void end_of_elaboration() override;
@@ -149,7 +147,6 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   Cycles own_time_ = 0;         ///< of the last event
 
   std::priority_queue<Fill, std::vector<Fill>, std::greater<>> fills_;
-  std::uint64_t num_fills_ = 0;
   std::vector<TimedOut<LineResponse>*> responses_;
   const Cycles* next_request_ = nullptr;
 

@@ -268,13 +268,23 @@ void AnalyticModel::shaded(const RayPacket& packet, const PacketShading& shading
   Cycles& at_depth = longest[depth_of(packet)];
   at_depth = std::max(at_depth, spent.latency + 3 * config_.link.latency);
 
+  add_to_film(shading);
+}
+
+// A batch takes a cycle a contribution, so that a line it asked for is not there before it ends.
+void AnalyticModel::add_to_film(const PacketShading& shading) {
   for (const PixelContribution& contribution : shading.contributions) {
-    const Address pixel = memory.pixel(contribution.pixel);
-    for (std::uint64_t line = tags_.line_of(Cache::kFilm, pixel);
-         line <= tags_.line_of(Cache::kFilm, pixel + bytes_per_pixel_ - 1); ++line) {
-      static_cast<void>(tags_.modify(Cache::kFilm, 0, line));
+    const Address pixel = scene_.memory.pixel(contribution.pixel);
+    const std::uint64_t last = tags_.line_of(Cache::kFilm, pixel + bytes_per_pixel_ - 1);
+    for (std::uint64_t line = tags_.line_of(Cache::kFilm, pixel); line <= last; ++line) {
+      if (std::ranges::find(lines_, line) != lines_.end()) {
+        tags_.merge(Cache::kFilm);
+      } else if (tags_.modify(Cache::kFilm, 0, line) != TagHierarchy::Served::kPrivate) {
+        lines_.push_back(line);
+      }
     }
   }
+  lines_.clear();
 }
 
 }  // namespace sheaf

@@ -102,6 +102,7 @@ class AnalyticModel final : public FunctionalObserver {
   Cycles read_lines(Cache cache, std::size_t unit, Address first, Bytes bytes, Cycles& lookups);
   Spent leaf_job(std::uint32_t leaf, std::uint32_t num_tests);
   Spent fetch_lines(Cache cache, const CacheSpec& spec, std::vector<std::uint64_t>& lines);
+  void add_to_film(const PacketShading& shading);
   void end_tile();
   [[nodiscard]] Observation observe() const;
   [[nodiscard]] BoundCycles bounds(const Demand& demand, const Observation& seen) const;
@@ -121,7 +122,7 @@ class AnalyticModel final : public FunctionalObserver {
   std::optional<std::uint32_t> snapshot_at_;
   std::optional<TagHierarchy> snapshot_;
   std::size_t next_traversal_ = 0, next_intersection_ = 0, next_shader_ = 0;
-  std::vector<std::uint64_t> lines_;
+  std::vector<std::uint64_t> lines_;  ///< asked for together, or on their way
 };
 
 }  // namespace sheaf

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "system/clocked_machine.h"
 #include "system/machine.h"
-#include "system/machine_links.h"
 
 namespace sheaf {
 namespace {
@@ -49,7 +49,8 @@ void check_stalls(const std::string& name, const Unit& unit, Cycles end) {
 
 }  // namespace
 
-void Machine::check_conservation() const {
+template <typename Kind>
+void MachineParts<Kind>::check_conservation() const {
   const RayCounts::Entry rays = frame_.rays.total();
   require_equal(rays.spawned, rays.retired, "rays spawned = rays retired");
   require_equal(packets_.num_out(), 0, "no packet in flight at the end");
@@ -98,5 +99,8 @@ void Machine::check_conservation() const {
   require_equal(l2.bytes_read, dram.bytes_read, "bytes into the l2 = bytes out of dram");
   require_equal(l2.bytes_written, dram.bytes_written, "bytes out of the l2 = bytes into dram");
 }
+
+template void MachineParts<TimedKind>::check_conservation() const;
+template void MachineParts<ClockedKind>::check_conservation() const;
 
 }  // namespace sheaf

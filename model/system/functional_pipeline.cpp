@@ -89,7 +89,7 @@ bool FunctionalPipeline::next_primary(RayPacket*& packet) {
   for (LaneMask left = packet->active; left != 0; left &= left - 1) {
     frame_.rays.spawn(packet->tag[static_cast<std::size_t>(std::countr_zero(left))]);
   }
-  flow_.admit(static_cast<std::uint64_t>(std::popcount(packet->active)), reservation);
+  flow_.admit(static_cast<std::uint64_t>(std::popcount(packet->active)), reservation, 0);
   return true;
 }
 

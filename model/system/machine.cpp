@@ -9,7 +9,6 @@
 #include "base/errors.h"
 #include "memory/banked_dram.h"
 #include "memory/fixed_dram.h"
-#include "system/machine_links.h"
 #include "system/pipeline_parts.h"
 
 namespace sheaf {
@@ -37,16 +36,8 @@ AnswerTimes answer_times(const Config& config) {
 
 Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
                  Frame& frame, const RunHooks& hooks)
-    : config_(config),
-      plan_(plan),
-      scene_(scene),
-      frame_(frame),
-      packets_(static_cast<int>(config.packet.size)),
-      shader_(make_shader(config, scene.scene, frame)),
-      hooks_(hooks),
-      flow_(make_flow_control(config, plan, scene.scene)),
-      domain_("clock_domain", period_of(config.clock.frequency)),
-      links_(std::make_unique<Links>()) {
+    : MachineParts(config, plan, scene, frame, hooks),
+      domain_("clock_domain", period_of(config.clock.frequency)) {
   if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
   build_memory();
   build_units();
@@ -58,7 +49,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
 Machine::~Machine() = default;
 
 void Machine::build_memory() {
-  links_->caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
+  links_.caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
       "caches_to_l2",
       TimedChannel<LineRequest>::Spec{
           .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
@@ -71,13 +62,13 @@ void Machine::build_memory() {
     l2_->expect_answers_from(banked->agent());
     dram_ = std::move(banked);
   }
-  l2_->in_requests(*links_->caches_to_l2);
+  l2_->in_requests(*links_.caches_to_l2);
   l2_->to_dram.bind(dram_->from_cache);
 }
 
 // A private cache's number at the L2, with the link that brings its lines.
 std::uint16_t Machine::add_requester(const CacheSpec& cache) {
-  auto& links = links_->l2_to_caches;
+  auto& links = links_.l2_to_caches;
   const auto number = static_cast<std::uint16_t>(links.size());
   const Cycles transfer = (cache.line + config_.link.memory_width - 1) / config_.link.memory_width;
   links.push_back(std::make_unique<TimedChannel<LineResponse>>(
@@ -98,7 +89,7 @@ void Machine::build_units() {
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
                         packet_size, hooks_.tile_choice);
-  TimedOut<LineRequest>& memory = *links_->caches_to_l2;
+  TimedOut<LineRequest>& memory = *links_.caches_to_l2;
 
   primary_source_ = std::make_unique<PrimarySource>(
       "primary_source", config_.primary_source, config_.image, order, scene_.scene.camera, packets_,
@@ -112,18 +103,18 @@ void Machine::build_units() {
         fmt::format("traversal_unit{}", i).c_str(), config_.traversal_unit, packet_size,
         config_.node_cache, traced, times, &frame_.heat, domain_, static_cast<std::uint16_t>(i),
         memory, requester));
-    traversal_units_.back()->in_lines(*links_->l2_to_caches.back());
+    traversal_units_.back()->in_lines(*links_.l2_to_caches.back());
   }
   for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
     const std::uint16_t requester = add_requester(config_.triangle_cache);
     intersection_units_.push_back(std::make_unique<IntersectionUnit>(
         fmt::format("intersection_unit{}", i).c_str(), config_.intersection_unit, packet_size,
         config_.triangle_cache, traced, times, domain_, memory, requester));
-    intersection_units_.back()->in_lines(*links_->l2_to_caches.back());
+    intersection_units_.back()->in_lines(*links_.l2_to_caches.back());
   }
   for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
     const std::uint16_t attributes = add_requester(config_.attribute_cache);
-    auto& attribute_lines = *links_->l2_to_caches.back();
+    auto& attribute_lines = *links_.l2_to_caches.back();
     const std::uint16_t textures =
         plan_.texture_cache ? add_requester(config_.texture_cache) : attributes;
     shader_units_.push_back(std::make_unique<ShaderUnit>(
@@ -132,7 +123,7 @@ void Machine::build_units() {
         domain_, memory, attributes, textures));
     shader_units_.back()->in_attribute_lines(attribute_lines);
     if (plan_.texture_cache) {
-      shader_units_.back()->in_texture_lines(*links_->l2_to_caches.back());
+      shader_units_.back()->in_texture_lines(*links_.l2_to_caches.back());
     }
   }
   if (plan_.shader_cache) {
@@ -142,16 +133,16 @@ void Machine::build_units() {
   film_ =
       std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
                                  flow_, domain_, memory, add_requester(config_.film_cache));
-  film_->in_lines(*links_->l2_to_caches.back());
+  film_->in_lines(*links_.l2_to_caches.back());
 }
 
 void Machine::build_regrouper() {
-  links_->packet_fifo = std::make_unique<PacketChannel>(
+  links_.packet_fifo = std::make_unique<PacketChannel>(
       "packet_fifo",
       PacketChannel::Spec{.capacity = config_.packet_fifo.depth,
                           .latency = config_.packet_fifo.latency +
                                      (plan_.ray_cache ? config_.ray_cache.latency : 0)});
-  links_->spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
+  links_.spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
       "spawned_rays",
       TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
   if (plan_.ray_cache) {
@@ -159,19 +150,19 @@ void Machine::build_regrouper() {
     ray_cache_ = std::make_unique<RayCacheUnit>("ray_cache", config_.ray_cache,
                                                 make_sorter(options, scene_.scene.bounds, packets_),
                                                 bundles_, flow_, domain_);
-    ray_cache_->in_bundles(*links_->spawned_rays);
-    ray_cache_->out_packets(*links_->packet_fifo);
+    ray_cache_->in_bundles(*links_.spawned_rays);
+    ray_cache_->out_packets(*links_.packet_fifo);
   } else {
     spawn_router_ = std::make_unique<SpawnRouter>("spawn_router", packets_, bundles_, domain_);
-    spawn_router_->in_bundles(*links_->spawned_rays);
-    spawn_router_->out_packets(*links_->packet_fifo);
+    spawn_router_->in_bundles(*links_.spawned_rays);
+    spawn_router_->out_packets(*links_.packet_fifo);
   }
 }
 
 void Machine::connect() {
   const Cycles latency = config_.link.latency;
   const std::size_t depth = config_.link.depth;
-  Links& links = *links_;
+  auto& links = links_;
   const auto number = [](const char* name, std::size_t i) { return fmt::format("{}{}", name, i); };
 
   links.source_to_arbiter = std::make_unique<PacketChannel>(
@@ -226,11 +217,11 @@ void Machine::connect() {
 void Machine::connect_shaders() {
   for (auto& shader : shader_units_) {
     for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-      links_->traversal_to_shader.push_back(std::make_unique<PacketChannel>(
+      links_.traversal_to_shader.push_back(std::make_unique<PacketChannel>(
           fmt::format("traversal{}_to_{}", i, shader->name()).c_str(),
           PacketChannel::Spec{.capacity = config_.link.depth, .latency = config_.link.latency}));
-      shader->in_packets(*links_->traversal_to_shader.back());
-      traversal_units_[i]->out_packets(*links_->traversal_to_shader.back());
+      shader->in_packets(*links_.traversal_to_shader.back());
+      traversal_units_[i]->out_packets(*links_.traversal_to_shader.back());
     }
   }
 }
@@ -238,16 +229,16 @@ void Machine::connect_shaders() {
 void Machine::connect_shader_cache() {
   const PacketChannel::Spec spec{.capacity = config_.link.depth, .latency = config_.link.latency};
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-    links_->traversal_to_shader_cache.push_back(std::make_unique<PacketChannel>(
+    links_.traversal_to_shader_cache.push_back(std::make_unique<PacketChannel>(
         fmt::format("traversal{}_to_shader_cache", i).c_str(), spec));
-    traversal_units_[i]->out_packets(*links_->traversal_to_shader_cache.back());
-    shader_cache_->in_packets(*links_->traversal_to_shader_cache.back());
+    traversal_units_[i]->out_packets(*links_.traversal_to_shader_cache.back());
+    shader_cache_->in_packets(*links_.traversal_to_shader_cache.back());
   }
   for (auto& shader : shader_units_) {
-    links_->shader_cache_to_shader.push_back(std::make_unique<PacketChannel>(
+    links_.shader_cache_to_shader.push_back(std::make_unique<PacketChannel>(
         fmt::format("shader_cache_to_{}", shader->name()).c_str(), spec));
-    shader_cache_->out_packets(*links_->shader_cache_to_shader.back());
-    shader->in_packets(*links_->shader_cache_to_shader.back());
+    shader_cache_->out_packets(*links_.shader_cache_to_shader.back());
+    shader->in_packets(*links_.shader_cache_to_shader.back());
   }
 }
 
@@ -259,24 +250,14 @@ bool Machine::run(const Monitor& monitor) {
   sc_core::sc_start();
   end_ = domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
+  num_wakes_ = domain_.num_wakes();
+  for (MachineObserver* observer : observers_) observer->finish(end_);
   finish_accounts(end_);
   if (domain_.ran_dry()) {
     if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());
     check_conservation();
   }
   return complete_;
-}
-
-void Machine::finish_accounts(Cycles end) {
-  for (auto& unit : traversal_units_) unit->finish(end);
-  for (auto& unit : intersection_units_) unit->finish(end);
-  for (auto& unit : shader_units_) unit->finish(end);
-  primary_source_->finish(end);
-  packet_arbiter_->finish(end);
-  film_->finish(end);
-  if (shader_cache_) shader_cache_->finish(end);
-  if (ray_cache_) ray_cache_->finish(end);
-  if (spawn_router_) spawn_router_->finish(end);
 }
 
 std::string Machine::describe_stuck() const {
@@ -298,8 +279,8 @@ std::string Machine::describe_stuck() const {
   add(spawn_router_.get());
   add(film_.get());
   add(l2_.get());
-  if (links_->packet_fifo && links_->packet_fifo->size() != 0) {
-    text += fmt::format("; packet_fifo: {} packets", links_->packet_fifo->size());
+  if (links_.packet_fifo && links_.packet_fifo->size() != 0) {
+    text += fmt::format("; packet_fifo: {} packets", links_.packet_fifo->size());
   }
   return text;
 }

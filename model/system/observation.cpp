@@ -38,7 +38,7 @@ std::span<const Quantity> observed_quantities() {
   return kQuantities;
 }
 
-Observation Machine::observe(Cycles now) const {
+Observation Machine::observation(Cycles now) const {
   using enum Observed;
   Observation seen;
   const auto add_cache = [&](const CacheStats& cache, Observed hits, Observed accesses) {

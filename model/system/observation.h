@@ -71,7 +71,9 @@ struct Quantity {
   Observed per = Observed::kNone;  ///< kNone: the total itself
 };
 
-/// Every such quantity.
+/// Every such quantity, beginning with these two.
 [[nodiscard]] std::span<const Quantity> observed_quantities();
+inline constexpr std::size_t kCyclesQuantity = 0;
+inline constexpr std::size_t kDramBytesQuantity = 1;
 
 }  // namespace sheaf

@@ -34,13 +34,13 @@ bool SampledFrame::run(const Monitor& monitor) {
     return stopped_;
   });
   if (!timed || stopped_) return false;
-  end_tile(machine_.observe(machine_.end()));
+  end_tile(machine_.observation(machine_.end()));
   return model_.run(untimed_,
                     [this](double /*share*/) { return monitor_ && monitor_(1.0, machine_.end()); });
 }
 
 void SampledFrame::tile_begins(std::uint32_t tile, Cycles now) {
-  const Observation seen = machine_.observe(now);
+  const Observation seen = machine_.observation(now);
   end_tile(seen);
   const bool follows = tile == 0 || (in_tile_ && tile == tile_ + 1);
   if (!follows && trace_up_to(tile)) machine_.load_caches(model_.snapshot());
@@ -105,7 +105,8 @@ void SampledFrame::report(StatsTree& stats) const {
   for (const Quantity& quantity : observed_quantities()) {
     report_estimate(quantity.info, estimate(quantity), stats);
   }
-  report_frame_length(estimate(observed_quantities()[0]), config_.clock.frequency, stats);
+  report_frame_length(estimate(observed_quantities()[kCyclesQuantity]), config_.clock.frequency,
+                      stats);
 }
 
 }  // namespace sheaf

@@ -29,6 +29,8 @@ class TagHierarchy {
   Served read(Cache cache, std::size_t unit, std::uint64_t line);
   /// A read-modify-write: the line is dirty from now on.
   Served modify(Cache cache, std::size_t unit, std::uint64_t line);
+  /// An access to a line that is on its way.
+  void merge(Cache cache) { ++level(cache).accesses; }
   /// Writes what is dirty in the film's cache back, as at the end of a frame.
   void flush();
 

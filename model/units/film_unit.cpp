@@ -48,7 +48,7 @@ Cycles FilmUnit::act(Cycles now) {
     return now + 1;
   }
   const Cycles next = std::min(next_line, in_batches->next_arrival());
-  if (flow_.finished() && next == kNever && !cache_.has_pending()) return flush_next(now);
+  if (flow_.finished(now) && next == kNever && !cache_.has_pending()) return flush_next(now);
   stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
   return next;
 }

@@ -48,9 +48,11 @@ Cycles PacketArbiter::act(Cycles now) {
   }
   const bool has_packet = has_primary || has_secondary;
   stalls_.switch_to(has_packet ? StallCause::kBlockedOutput : StallCause::kIdle, now);
-  if (!has_context) return in_free->next_arrival();
-  const Cycles next_secondary = secondary_ != nullptr ? secondary_->next_arrival() : kNever;
-  return std::min({in_free->next_arrival(), in_primary->next_arrival(), next_secondary});
+  // What has come already waits for a context; what comes later is at least accounted for.
+  const Cycles next_primary = has_primary ? kNever : in_primary->next_arrival();
+  const Cycles next_secondary =
+      secondary_ == nullptr || has_secondary ? kNever : secondary_->next_arrival();
+  return std::min({in_free->next_arrival(), next_primary, next_secondary});
 }
 
 bool PacketArbiter::choose_secondary(bool has_primary, bool has_secondary) const {

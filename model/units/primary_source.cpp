@@ -105,7 +105,7 @@ Cycles PrimarySource::act(Cycles now) {
   if (num_admitted_++ == 0 && observer_ != nullptr) observer_->tile_begins(order_.tile(), now);
   ++stats_.num_packets;
   stats_.num_rays += rays;
-  flow_.admit(rays, reservation_);
+  flow_.admit(rays, reservation_, now);
   out_packets->nb_write(packet_, now);
   packet_ = nullptr;
   next_packet_ = now + spec_.interval;

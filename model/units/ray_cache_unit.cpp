@@ -91,17 +91,18 @@ Cycles RayCacheUnit::next_time_out() const {
 }
 
 bool RayCacheUnit::sweep(Cycles now) {
-  flow_.set_waiting(sorter_->num_waiting(), now);
-  if (sorter_->num_waiting() == 0 || !flow_.is_quiet() || flow_.waits_for_shader()) return false;
-  if (flow_.source() == FlowControl::Source::kIssuing) return false;
-  sorter_->sweep(sweep_reason(), now, departures_);
+  if (sorter_->num_waiting() == 0 || !flow_.is_quiet(now) || flow_.waits_for_shader(now)) {
+    return false;
+  }
+  if (flow_.source(now) == FlowControl::Source::kIssuing) return false;
+  sorter_->sweep(sweep_reason(now), now, departures_);
   return true;
 }
 
-Departure RayCacheUnit::sweep_reason() const {
+Departure RayCacheUnit::sweep_reason(Cycles now) const {
   if (flow_.by_tile()) return Departure::kSweptTile;
-  return flow_.source() == FlowControl::Source::kExhausted ? Departure::kSweptFrame
-                                                           : Departure::kSweptStall;
+  return flow_.source(now) == FlowControl::Source::kExhausted ? Departure::kSweptFrame
+                                                              : Departure::kSweptStall;
 }
 
 std::string RayCacheUnit::stuck_reason() const {

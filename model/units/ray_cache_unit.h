@@ -41,7 +41,7 @@ class RayCacheUnit final : public sc_core::sc_module, public SteppingAgent {
   bool insert_rays(Cycles now);
   bool time_out(Cycles now);
   bool sweep(Cycles now);
-  [[nodiscard]] Departure sweep_reason() const;
+  [[nodiscard]] Departure sweep_reason(Cycles now) const;
   [[nodiscard]] Cycles next_time_out() const;
 
   const RayCacheSpec spec_;

@@ -29,13 +29,13 @@ void ShaderCacheUnit::end_of_elaboration() {
 }
 
 Cycles ShaderCacheUnit::act(Cycles now) {
+  if (now < busy_until_) return busy_until_;
   if (!send_departures(now)) {
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return kNever;  // woken when a shader unit has room
   }
-  if (now < busy_until_) return busy_until_;
-  const bool worked = accept_packet(now) || sweep();
-  flow_.set_waiting_for_shader(sorter_.num_waiting());
+  const bool worked = accept_packet(now) || sweep(now);
+  flow_.set_waiting_for_shader(sorter_.num_waiting(), now);
   if (worked) {
     stalls_.switch_to(StallCause::kBusy, now);
     return std::max(busy_until_, now + 1);
@@ -64,10 +64,9 @@ bool ShaderCacheUnit::accept_packet(Cycles now) {
   return true;
 }
 
-bool ShaderCacheUnit::sweep() {
-  flow_.set_waiting_for_shader(sorter_.num_waiting());
-  if (sorter_.num_waiting() == 0 || !flow_.is_quiet()) return false;
-  if (flow_.source() == FlowControl::Source::kIssuing) return false;
+bool ShaderCacheUnit::sweep(Cycles now) {
+  if (sorter_.num_waiting() == 0 || !flow_.is_quiet(now)) return false;
+  if (flow_.source(now) == FlowControl::Source::kIssuing) return false;
   sorter_.sweep(departures_);
   return true;
 }

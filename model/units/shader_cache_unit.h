@@ -36,7 +36,7 @@ class ShaderCacheUnit final : public sc_core::sc_module, public SteppingAgent {
   Cycles act(Cycles now) override;
   bool send_departures(Cycles now);
   bool accept_packet(Cycles now);
-  bool sweep();
+  bool sweep(Cycles now);
 
   const ShaderCacheSpec spec_;
   ShadingSorter sorter_;
