@@ -86,7 +86,7 @@ bool AnalyticModel::run(FunctionalPipeline& pipeline, const FunctionalPipeline::
 
 void AnalyticModel::tile_begins(std::uint32_t tile) {
   if (in_tile_) end_tile();
-  if (tile == snapshot_at_) snapshot_ = tags_;
+  if (tile == snapshot_at_) snapshot_.emplace(tags_);
   in_tile_ = true;
   tile_ = tile;
 }
@@ -278,8 +278,8 @@ void AnalyticModel::add_to_film(const PacketShading& shading) {
     const std::uint64_t last = tags_.line_of(Cache::kFilm, pixel + bytes_per_pixel_ - 1);
     for (std::uint64_t line = tags_.line_of(Cache::kFilm, pixel); line <= last; ++line) {
       if (std::ranges::find(lines_, line) != lines_.end()) {
-        tags_.merge(Cache::kFilm);
-      } else if (tags_.modify(Cache::kFilm, 0, line) != TagHierarchy::Served::kPrivate) {
+        tags_.merge_film();
+      } else if (tags_.modify_film(line, bytes_per_pixel_) != TagHierarchy::Served::kPrivate) {
         lines_.push_back(line);
       }
     }

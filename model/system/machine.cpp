@@ -53,7 +53,7 @@ void Machine::build_memory() {
       "caches_to_l2",
       TimedChannel<LineRequest>::Spec{
           .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
-  l2_ = std::make_unique<L2Cache>("l2", config_.l2, domain_);
+  l2_ = std::make_unique<L2Cache>("l2", config_.l2, config_.crossbar, domain_);
   if (config_.dram.model == DramModel::kFixed) {
     dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
   } else {
@@ -70,7 +70,8 @@ void Machine::build_memory() {
 std::uint16_t Machine::add_requester(const CacheSpec& cache) {
   auto& links = links_.l2_to_caches;
   const auto number = static_cast<std::uint16_t>(links.size());
-  const Cycles transfer = (cache.line + config_.link.memory_width - 1) / config_.link.memory_width;
+  const Cycles transfer =
+      (cache.line / cache.sectors + config_.link.memory_width - 1) / config_.link.memory_width;
   links.push_back(std::make_unique<TimedChannel<LineResponse>>(
       fmt::format("l2_to_cache_{}", number).c_str(),
       TimedChannel<LineResponse>::Spec{
@@ -248,7 +249,8 @@ bool Machine::run(const Monitor& monitor) {
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
-  end_ = domain_.latest() + 1;
+  const bool cut = !domain_.ran_dry() && !domain_.stopped();
+  end_ = cut ? config_.run.max_cycles : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   num_wakes_ = domain_.num_wakes();
   for (MachineObserver* observer : observers_) observer->finish(end_);

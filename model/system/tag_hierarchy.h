@@ -12,8 +12,8 @@
 namespace sheaf {
 
 /// The machine's caches without time: which level an access finds its line at, if every access has
-/// been dealt with before the next one comes. One LRU stack a set, so that what hits is what a
-/// stack distance below the associativity says.
+/// been dealt with before the next one comes. With LRU what hits is what a stack distance below the
+/// associativity says. As in the machine, a line is a sector where lines are divided.
 class TagHierarchy {
  public:
   explicit TagHierarchy(const Config& config);
@@ -27,10 +27,10 @@ class TagHierarchy {
     return address >> level(cache).line_shift;
   }
   Served read(Cache cache, std::size_t unit, std::uint64_t line);
-  /// A read-modify-write: the line is dirty from now on.
-  Served modify(Cache cache, std::size_t unit, std::uint64_t line);
-  /// An access to a line that is on its way.
-  void merge(Cache cache) { ++level(cache).accesses; }
+  /// A read-modify-write of some bytes of a line of the film.
+  Served modify_film(std::uint64_t line, Bytes bytes);
+  /// An access to a line of the film that is on its way.
+  void merge_film() { ++level(Cache::kFilm).accesses; }
   /// Writes what is dirty in the film's cache back, as at the end of a frame.
   void flush();
 
@@ -45,29 +45,37 @@ class TagHierarchy {
  private:
   struct Level {
     CacheMode mode{};
-    Bytes line = 0;
     unsigned line_shift = 0;
     std::vector<CacheArray> units;
     std::uint64_t hits = 0;
     std::uint64_t accesses = 0;
+    [[nodiscard]] Bytes line_size() const { return Bytes{1} << line_shift; }
+  };
+  /// A line's bank of the L2, and its number there.
+  struct Place {
+    CacheArray& bank;
+    std::uint64_t index;
   };
   [[nodiscard]] const Level& level(Cache cache) const {
     return levels_[static_cast<std::size_t>(cache)];
   }
   Level& level(Cache cache) { return levels_[static_cast<std::size_t>(cache)]; }
   void add_level(Cache cache, const CacheSpec& spec, std::size_t units);
-  Served fetch(Level& level, std::size_t unit, std::uint64_t line, bool dirty);
+  bool finds(Level& level, std::size_t unit, std::uint64_t line);
+  void fill(Level& level, std::size_t unit, std::uint64_t line, bool dirty);
   Served read_l2(Address address);
   void write_l2(Address address, Bytes bytes);
-  [[nodiscard]] bool l2_holds(std::uint64_t line) {
-    return l2_mode_ == CacheMode::kPerfect || bank_of(line).touch(line >> bank_shift_);
+  void put_l2(const Place& where, bool dirty);
+  [[nodiscard]] Place place_of(Address address);
+  [[nodiscard]] bool l2_finds(const Place& where) const {
+    return l2_.mode == CacheMode::kPerfect || where.bank.touch(where.index);
   }
-  CacheArray& bank_of(std::uint64_t line) { return banks_[line & (banks_.size() - 1)]; }
+  [[nodiscard]] Bytes l2_line_size() const { return Bytes{1} << l2_line_shift_; }
 
   std::vector<Level> levels_{kNumCaches};
-  CacheMode l2_mode_;
-  Bytes l2_line_;
-  unsigned l2_line_shift_, bank_shift_;
+  const WriteSpec film_write_;
+  const L2Spec l2_;
+  const unsigned l2_line_shift_, sector_shift_, bank_shift_;
   std::vector<CacheArray> banks_;
   std::uint64_t l2_hits_ = 0;
   std::uint64_t l2_accesses_ = 0;

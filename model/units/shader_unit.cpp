@@ -139,10 +139,10 @@ void ShaderUnit::issue(int number, Cycles now) {
   if (outcome.complete) {
     context.issued = true;
     const Cycles hit_latency = texels ? textures_->hit_latency() : attributes_.hit_latency();
-    occupy_fetch(number, hit_latency, outcome.lookups, now);
+    occupy_fetch(number, hit_latency, outcome.port_cycles, now);
   } else {
     park(number, now);
-    occupy_missed(outcome.lookups, now);
+    occupy_missed(outcome.port_cycles, now);
   }
 }
 

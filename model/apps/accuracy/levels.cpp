@@ -75,7 +75,6 @@ double median(std::vector<double> values) {
 const std::vector<Level>& levels() {
   static const std::vector<Level> kLevels{
       {"analytic", {"run.fidelity=analytic"}},
-      {"sampled 5%", {"run.fidelity=sampled", "run.sample_share=0.05"}},
       {"sampled 10%", {"run.fidelity=sampled", "run.sample_share=0.1"}},
       {"sampled 20%", {"run.fidelity=sampled", "run.sample_share=0.2"}},
       {"sampled 40%", {"run.fidelity=sampled", "run.sample_share=0.4"}},

@@ -166,12 +166,12 @@ Plot accuracy_plot(const AccuracyResult& result) {
 Plot image_error_plot(const AccuracyResult& result) {
   Plot plot;
   plot.title = fmt::format("{}: what a film format costs", result.scene);
-  plot.x = {"length of the frame, cycles", PlotScale::kLinear};
+  plot.x = {"length of the frame, million cycles", PlotScale::kLinear};
   plot.y = {"relMSE against double precision", PlotScale::kLog10};
   PlotSeries formats{"film formats", {}, PlotStyle::kMarks};
   for (const ImageError& row : result.images) {
     if (!std::isfinite(row.cycles)) continue;
-    formats.points.push_back({row.cycles, std::max(kLeastRelMse, row.rel_mse), row.film});
+    formats.points.push_back({row.cycles / 1e6, std::max(kLeastRelMse, row.rel_mse), row.film});
   }
   plot.series = {formats};
   return plot;

@@ -23,7 +23,6 @@ ENERGIES = {
     "energy.known": "all items of the machine that are known",
     "system.dram.energy.known": "DRAM alone",
 }
-AREA = "area.sram_mm2"
 PAYS = 0.01  # a gain below this share of the frame is called none
 
 
@@ -56,8 +55,9 @@ def machines(plan: Plan, results: Results) -> pd.DataFrame:
             }
             row |= {column: results.get(run, counter) for column, counter in COSTS.items()}
             row["energy"] = results.get(run, counter)
-            row["area"] = results.get(run, AREA)
-            row["sram_kib"] = results.get(run, "derived.sram_bits") / 8 / 1024
+            row["area"] = results.get(run, "area.sram_mm2")
+            row["ray_cache_area"] = results.get(run, "area.ray_cache.mm2")
+            row["ray_cache_kib"] = results.get(run, "area.ray_cache.bits") / 8 / 1024
             rows.append(row)
     frame = pd.DataFrame(rows)
     return _relative(frame) if len(frame) else frame
@@ -73,7 +73,7 @@ def _relative(frame: pd.DataFrame) -> pd.DataFrame:
     places = ["scene", "memory"]
     base = frame[frame["heuristic"] == "none"].set_index(places)
     at = pd.MultiIndex.from_frame(frame[places])
-    for column in ("cycles", "p_t", "bytes_per_ray", "energy", "sram_kib"):
+    for column in ("cycles", "p_t", "bytes_per_ray", "energy", "area"):
         frame[f"{column}_relative"] = frame[column] / base[column].reindex(at).to_numpy()
     return frame
 
