@@ -300,7 +300,12 @@ void L2Cache::fill(Address address, Cycles now) {
 
 // Puts a line in; what of another one is dirty leaves for DRAM.
 void L2Cache::put(const Place& where, bool dirty, Cycles now) {
-  const CacheArray::Victim victim = banks_[where.bank].array.fill(where.index, dirty);
+  CacheArray& array = banks_[where.bank].array;
+  if (was_loaded_ && array.touch(where.index)) {
+    if (dirty) array.mark_dirty(where.index);
+    return;
+  }
+  const CacheArray::Victim victim = array.fill(where.index, dirty);
   if (victim.dirty == 0) return;
   const std::uint64_t first = line_at({where.bank, victim.line});
   for (std::uint32_t left = victim.dirty; left != 0; left &= left - 1) {
@@ -342,6 +347,11 @@ tlm::tlm_sync_enum L2Cache::nb_transport_bw(tlm::tlm_generic_payload& payload,
   dram_done(payload, domain_.cycle_at_kernel_offset(delay));
   payload.release();
   return tlm::TLM_COMPLETED;
+}
+
+void L2Cache::load(const std::vector<CacheArray>& banks) {
+  for (std::size_t i = 0; i < banks_.size(); ++i) banks_[i].array = banks[i];
+  was_loaded_ = true;
 }
 
 bool L2Cache::is_idle() const {

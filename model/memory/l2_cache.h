@@ -87,6 +87,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Takes over the tags of banks of the same shape; counts nothing. Of a line that is on its way
+  /// there may be one already when it comes.
+  void load(const std::vector<CacheArray>& banks);
+
   [[nodiscard]] const L2Stats& stats() const { return stats_; }
   [[nodiscard]] const L2KindStats& kind_stats(DataKind kind) const {
     return kind_stats_[static_cast<std::size_t>(kind)];
@@ -123,8 +127,9 @@ class L2Cache final : public sc_core::sc_module, public Agent {
     std::uint32_t num_writes_out = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
   };
-  /// A line on its way from DRAM, or a write that has been done there. Of those of the same cycle the
-  /// lowest address is first, in whatever order a memory of several channels gave notice of them.
+  /// A line on its way from DRAM, or a write that has been done there. Of those of the same cycle
+  /// the lowest address is first, in whatever order a memory of several channels gave notice of
+  /// them.
   struct Answer {
     Cycles at = 0;
     Address address = 0;
@@ -211,6 +216,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   unsigned bank_shift_;
   unsigned sector_shift_;
   std::vector<Bank> banks_;
+  bool was_loaded_ = false;
   std::size_t num_queued_ = 0;       ///< requests in all banks' queues
   std::size_t num_outstanding_ = 0;  ///< MSHRs in use in all banks
   Cycles own_time_ = 0;              ///< of the last event

@@ -92,6 +92,10 @@ std::uint64_t PrivateCache::fill(const LineResponse& response, Cycles now, std::
   stats_.sum_miss_latency += now - filled.since;
   const bool dirty = filled.dirty && !writes_arrived(line, now);
   if (!spec_.write.allocate) return filled.waiters;
+  if (was_loaded_ && array_.touch(line)) {
+    if (dirty) array_.mark_dirty(line);
+    return filled.waiters;
+  }
   const CacheArray::Victim victim = array_.fill(line, dirty);
   for (std::uint32_t left = victim.dirty; left != 0; left &= left - 1) {
     write_back(victim.line + static_cast<std::uint32_t>(std::countr_zero(left)), now);
@@ -122,6 +126,11 @@ void PrivateCache::send_write(Address address, Bytes bytes, Cycles now) {
   requests_.write_ahead(
       {address, static_cast<std::uint32_t>(bytes), requester_, written_kind_, true, bounded}, now,
       requester_);
+}
+
+void PrivateCache::load(const CacheArray& tags) {
+  array_ = tags;
+  was_loaded_ = true;
 }
 
 std::vector<std::uint64_t> PrivateCache::take_dirty_lines() {

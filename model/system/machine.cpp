@@ -89,12 +89,12 @@ void Machine::build_units() {
                            bundles_,     batches_, frame_.rays,   flow_};
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
-                        packet_size);
+                        packet_size, hooks_.tile_choice);
   TimedOut<LineRequest>& memory = *links_.caches_to_l2;
 
-  primary_source_ = std::make_unique<PrimarySource>("primary_source", config_.primary_source,
-                                                    config_.image, order, scene_.scene.camera,
-                                                    packets_, frame_.rays, flow_, domain_);
+  primary_source_ = std::make_unique<PrimarySource>(
+      "primary_source", config_.primary_source, config_.image, order, scene_.scene.camera, packets_,
+      frame_.rays, flow_, domain_, hooks_.tiles);
   packet_arbiter_ = std::make_unique<PacketArbiter>("packet_arbiter", config_.packet_arbiter,
                                                     config_.traversal_unit.count,
                                                     config_.traversal_unit.contexts, domain_);

@@ -14,6 +14,7 @@
 #include "memory/l2_cache.h"
 #include "memory/main_memory.h"
 #include "system/coherence.h"
+#include "system/estimate_report.h"
 #include "system/reported_values.h"
 #include "units/film_unit.h"
 #include "units/packet_arbiter.h"
@@ -109,6 +110,16 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"rays", "All rays", RayValues::infos()},
       CounterGroup{"rays.<kind>.depth<n>", "Rays of a kind and depth", RayValues::infos()},
       CounterGroup{"system", "The machine as a whole", SystemValues::infos()},
+      CounterGroup{"system", "Only if run.fidelity is sampled", FrameEstimateValues::infos()},
+      CounterGroup{"sample", "The same: the sample", SampleValues::infos()},
+      CounterGroup{"estimate.<quantity>",
+                   "Only if run.fidelity is sampled, or, without an "
+                   "interval, analytic",
+                   EstimateValues::infos()},
+      CounterGroup{"bound",
+                   "Only if run.fidelity is analytic: cycles that the frame would take if "
+                   "this alone counted",
+                   BoundCycles::infos()},
       CounterGroup{"system.link.<link>, system.packet_fifo", "Links between units",
                    LinkValues::infos()},
       CounterGroup{"system.primary_source", "Camera rays", PrimarySourceStats::infos()},

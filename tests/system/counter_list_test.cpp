@@ -23,6 +23,8 @@ TEST(CounterList, ExplainsEverythingThatARunReports) {
   for (const std::vector<std::string>& choice : std::vector<std::vector<std::string>>{
            {"dram.model=DDR4-2400", "shader_cache.cells=4"},
            {"ray_cache.heuristic=none", "traversal.scheme=omni"},
+           {"run.fidelity=sampled"},
+           {"run.fidelity=analytic"},
            {"run.fidelity=functional", "render.recursion_level=0"}}) {
     std::vector<std::string> settings = small;
     settings.insert(settings.end(), choice.begin(), choice.end());
