@@ -25,50 +25,57 @@ double probability_within(double theta, std::size_t degrees) {
   return odd ? 2.0 / std::numbers::pi * (theta + sine * sum) : sine * sum;
 }
 
-double mean(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// Collects the relative deviations of the terms whose product or quotient is estimated.
-class Linearised {
+/// A product of sums over the sample, of whole powers 1 and -1, and of known factors.
+class Product {
  public:
-  explicit Linearised(std::size_t sample) : deviation_(sample, 0.0) {}
-
-  void add(std::span<const double> values, double sign) {
-    const double centre = mean(values);
-    for (std::size_t i = 0; i < values.size(); ++i) deviation_[i] += sign * values[i] / centre;
-    factor_ *= sign > 0 ? centre : 1.0 / centre;
+  void add(const SampledTotal& total, bool divides) {
+    terms_.push_back({total.measured, divides});
+    terms_.push_back({total.rough, !divides});
+    known_ *= divides ? 1.0 / total.rough_total : total.rough_total;
   }
-  void scale(double by) { factor_ *= by; }
 
   [[nodiscard]] Estimate estimate(std::size_t population) const {
-    const std::size_t sample = deviation_.size();
-    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t sample = terms_.front().values.size();
+    const double value = without(sample);
     const bool complete = sample == population;
-    if (!std::isfinite(factor_) || (sample < 2 && !complete)) return {nan, nan, nan};
-    const double half = complete ? 0.0 : std::fabs(factor_) * half_width(population);
-    return {factor_, factor_ - half, factor_ + half};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(value) || (sample < 2 && !complete)) return {nan, nan, nan};
+    const double half = complete ? 0.0 : half_width(population);
+    return {value, value - half, value + half};
   }
 
  private:
+  struct Term {
+    std::span<const double> values;
+    bool divides = false;
+  };
+  // The product with one unit of the sample left out; none if its number is that of the sample's
+  // size.
+  [[nodiscard]] double without(std::size_t unit) const {
+    double product = known_;
+    for (const Term& term : terms_) {
+      const auto& values = term.values;
+      double sum = std::accumulate(values.begin(), values.end(), 0.0);
+      if (unit < values.size()) sum -= values[unit];
+      product = term.divides ? product / sum : product * sum;
+    }
+    return product;
+  }
   [[nodiscard]] double half_width(std::size_t population) const {
-    const auto n = static_cast<double>(deviation_.size());
-    const double centre = mean(deviation_);
+    const std::size_t sample = terms_.front().values.size();
+    const auto n = static_cast<double>(sample);
+    std::vector<double> products;
+    for (std::size_t unit = 0; unit < sample; ++unit) products.push_back(without(unit));
+    const double mean = std::accumulate(products.begin(), products.end(), 0.0) / n;
     double squares = 0;
-    for (const double d : deviation_) squares += (d - centre) * (d - centre);
-    const double variance = squares / (n - 1) / n * (1 - n / static_cast<double>(population));
-    return student_t_95(deviation_.size() - 1) * std::sqrt(variance);
+    for (const double product : products) squares += (product - mean) * (product - mean);
+    const double correction = 1.0 - n / static_cast<double>(population);
+    return student_t_95(sample - 1) * std::sqrt(squares * (n - 1) / n * correction);
   }
 
-  std::vector<double> deviation_;
-  double factor_ = 1;
+  std::vector<Term> terms_;
+  double known_ = 1;
 };
-
-void add_total(Linearised& linear, const SampledTotal& total, double sign) {
-  linear.add(total.measured, sign);
-  linear.add(total.rough, -sign);
-  linear.scale(sign > 0 ? total.rough_total : 1.0 / total.rough_total);
-}
 
 }  // namespace
 
@@ -83,17 +90,17 @@ double student_t_95(std::size_t degrees) {
 }
 
 Estimate estimate_total(const SampledTotal& total, std::size_t population) {
-  Linearised linear(total.measured.size());
-  add_total(linear, total, 1);
-  return linear.estimate(population);
+  Product product;
+  product.add(total, false);
+  return product.estimate(population);
 }
 
 Estimate estimate_ratio(const SampledTotal& numerator, const SampledTotal& denominator,
                         std::size_t population) {
-  Linearised linear(numerator.measured.size());
-  add_total(linear, numerator, 1);
-  add_total(linear, denominator, -1);
-  return linear.estimate(population);
+  Product product;
+  product.add(numerator, false);
+  product.add(denominator, true);
+  return product.estimate(population);
 }
 
 }  // namespace sheaf

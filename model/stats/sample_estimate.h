@@ -27,10 +27,12 @@ struct SampledTotal {
 };
 
 /// The population's total: the rough total, corrected by the ratio of measured to rough in the
-/// sample. The interval is that of the linearised ratio estimator with the finite population
-/// correction (Cochran, Sampling Techniques, 3rd edition, 1977, sections 6.3 and 6.4) and Student's
-/// t with one degree less than there are units in the sample; none, if the whole population is in
-/// it. All NaN if a mean is 0 or the sample has fewer than two units out of more.
+/// sample (Cochran, Sampling Techniques, 3rd edition, 1977, chapter 6). The interval is Student's
+/// t, with one degree less than there are units in the sample, times the jackknife's standard error
+/// (B. Efron and C. Stein, "The jackknife estimate of variance", Annals of Statistics 9(3), 1981),
+/// which for ratios of small samples is less optimistic than the linearised one, with the finite
+/// population correction; none, if the whole population is in the sample. All NaN if nothing can be
+/// divided by, or the sample has fewer than two units out of more.
 [[nodiscard]] Estimate estimate_total(const SampledTotal& total, std::size_t population);
 
 /// The same of the ratio of two totals, measured on the same units.

@@ -39,6 +39,15 @@ FlowControl make_flow_control(const Config& config, const BuildPlan& plan, const
   return {config.flow, worst, credits(config, worst)};
 }
 
+std::uint32_t tiles_in_flight(const Config& config, const BuildPlan& plan, const Scene& scene) {
+  if (config.flow.control == FlowPolicy::kTile) return 0;
+  const WorstCase worst = worst_case(config, plan, scene);
+  const std::uint64_t tile =
+      worst.of({}) * std::uint64_t{config.flow.tile_size} * config.flow.tile_size;
+  const std::uint64_t tiles = (credits(config, worst) + tile - 1) / tile;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(tiles, ~std::uint32_t{0} / 2));
+}
+
 PacketShader make_shader(const Config& config, const Scene& scene, Frame& frame) {
   return {scene,
           {config.render.recursion_level, static_cast<float>(config.render.weight_cutoff)},

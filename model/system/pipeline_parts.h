@@ -16,6 +16,10 @@ namespace sheaf {
 [[nodiscard]] FlowControl make_flow_control(const Config& config, const BuildPlan& plan,
                                             const Scene& scene);
 
+/// Tiles besides the current one that can have rays in flight: none with tile flow control.
+[[nodiscard]] std::uint32_t tiles_in_flight(const Config& config, const BuildPlan& plan,
+                                            const Scene& scene);
+
 /// Shades what the machine traces; the primary hits' layers go to the frame.
 [[nodiscard]] PacketShader make_shader(const Config& config, const Scene& scene, Frame& frame);
 

@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "system/estimate_report.h"
+#include "system/pipeline_parts.h"
 
 namespace sheaf {
 namespace {
 
-// With credits tiles overlap: what a tile takes depends on those before it, which fill the machine.
-// With tile flow control it begins empty.
-std::uint32_t warm_up_tiles(const Config& config) {
-  return config.flow.control == FlowPolicy::kTile ? 0 : 2;
+// What the film still has to do of the tile before, and with credits the tiles that overlap, belong
+// to what a tile takes: as many as can be in flight, and one more.
+std::uint32_t warm_up_tiles(const Config& config, const BuildPlan& plan, const Scene& scene) {
+  return 1 + tiles_in_flight(config, plan, scene);
 }
 
 }  // namespace
@@ -21,7 +22,7 @@ SampledFrame::SampledFrame(const Config& config, const BuildPlan& plan, const Pr
                            Frame& frame)
     : config_(config),
       sample_(num_tiles(config), config.run.sample_share, config.run.sample_seed,
-              warm_up_tiles(config)),
+              warm_up_tiles(config, plan, scene.scene)),
       timed_frame_(config),
       model_(config, scene),
       untimed_(config, plan, scene, frame, {}, &model_),

@@ -52,7 +52,8 @@ TEST(TileSample, TakesAllWhereThereAreFew) {
 
 struct Sampled : testing::TestWithParam<Settings> {
   static Settings small(Settings more) {
-    Settings settings{"image.width=64", "image.height=48", "flow.tile_size=4", "film.format=exact"};
+    Settings settings{"image.width=128", "image.height=96", "flow.tile_size=8",
+                      "film.format=exact"};
     settings.insert(settings.end(), more.begin(), more.end());
     return settings;
   }

@@ -41,15 +41,16 @@ TEST(SampleEstimate, IsCertainWhereTheRoughFiguresAreProportional) {
   EXPECT_NEAR(estimate.high - estimate.low, 0, 1e-9);
 }
 
-// By hand: means 4 and 2; relative deviations of measured less rough 0, -1/4, 1/4, whose variance
-// is 1/16; over 3, less 3/12: 1/64; t with two degrees 4.30265.
-TEST(SampleEstimate, HasTheIntervalOfTheRatioEstimator) {
+// By hand: without one unit each the estimates are 48, 54 and 40, whose squared deviations sum to
+// 98.6667; times 2/3, less 3/12: 49.3333; t with two degrees 4.30265.
+TEST(SampleEstimate, HasTheIntervalOfTheJackknife) {
   const Values measured{2, 3, 7};
   const Values rough{1, 2, 3};
   const Estimate estimate = estimate_total({measured, rough, 24}, 12);
   EXPECT_DOUBLE_EQ(estimate.value, 48);
-  EXPECT_NEAR(estimate.high - estimate.value, 48 * 4.302653 / 8, 1e-4);
-  EXPECT_NEAR(estimate.value - estimate.low, 48 * 4.302653 / 8, 1e-4);
+  const double half = 4.302653 * std::sqrt(49.0 + 1.0 / 3.0);
+  EXPECT_NEAR(estimate.high - estimate.value, half, 1e-4);
+  EXPECT_NEAR(estimate.value - estimate.low, half, 1e-4);
 }
 
 TEST(SampleEstimate, OfARatioCorrectsBothTotals) {
@@ -69,6 +70,7 @@ TEST(SampleEstimate, IsNoneWhereItCannotBeMade) {
   const Values zero{0, 0};
   const Values some{1, 2};
   EXPECT_TRUE(std::isnan(estimate_total({some, zero, 0}, 9).value));
+  EXPECT_TRUE(std::isnan(estimate_ratio({some, some, 9}, {zero, some, 9}, 9).value));
 }
 
 // 2000 samples of 20 out of 100 with a rough figure that is 20 % off: the interval is there for 95
