@@ -147,7 +147,7 @@ std::vector<Finding> planes_in_fewer_bits(const Mesh& mesh, int num_rays) {
                                     "a rounded plane stands for all that rounds to it"));
     const double more = static_cast<double>(rounded) / static_cast<double>(full) - 1.0;
     findings.push_back(
-        {fmt::format("steps added for {} bits saved a plane", 32 - format.bits),
+        {fmt::format("steps added in {}, per step ({} bits saved)", format.name, 32 - format.bits),
          full,
          more,
          {std::numeric_limits<double>::infinity(), "an experiment: told, not judged"},
