@@ -21,7 +21,7 @@ struct SpillTest : testing::Test {
   Actor shader{domain};
   Actor ray_cache{domain};
   Actor memory{domain};
-  TimedChannel<SpawnBundle*> in{"in", {.capacity = 8, .latency = 1}};
+  TimedChannel<SpawnBundle*> in{"in", {.capacity = 64, .latency = 1}};
   TimedChannel<SpawnBundle*> out{"out", {.capacity = 1, .latency = 1}};
   TimedChannel<LineRequest> requests{
       "requests", {.capacity = TimedChannel<LineRequest>::kUnbounded, .latency = 1, .interval = 0}};
