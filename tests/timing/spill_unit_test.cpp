@@ -21,7 +21,7 @@ struct SpillTest : testing::Test {
   Actor shader{domain};
   Actor ray_cache{domain};
   Actor memory{domain};
-  TimedChannel<SpawnBundle*> in{"in", {.capacity = 8, .latency = 1}};
+  TimedChannel<SpawnBundle*> in{"in", {.capacity = 64, .latency = 1}};
   TimedChannel<SpawnBundle*> out{"out", {.capacity = 1, .latency = 1}};
   TimedChannel<LineRequest> requests{
       "requests", {.capacity = TimedChannel<LineRequest>::kUnbounded, .latency = 1, .interval = 0}};
@@ -133,15 +133,15 @@ TEST_F(SpillTest, ComesBackWhenItsPlaceIsFree) {
 
 TEST_F(SpillTest, NothingOvertakesASpilledBundle) {
   send_at(0, 1);
-  send_at(1, 16);
-  send_at(2, 8);                                // spilled
-  for (const Cycles t : {3, 4}) send_at(t, 1);  // would fit when 16 have left
+  send_at(1, 9);
+  send_at(2, 8);                                  // spilled
+  for (const Cycles t : {20, 30}) send_at(t, 2);  // would fit beside the 9
   read_from(50, 400);
   sc_core::sc_start();
   ASSERT_EQ(left.size(), 5U);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(left[i].second, i);
-  EXPECT_EQ(unit.stats().num_rays_spilled, 10U);
-  EXPECT_EQ(unit.stats().num_rays_returned, 10U);
+  EXPECT_EQ(unit.stats().num_rays_spilled, 12U);
+  EXPECT_EQ(unit.stats().num_rays_returned, 12U);
 }
 
 TEST_F(SpillTest, BundleLargerThanTheQueuePassesWhenItIsEmpty) {
