@@ -23,6 +23,7 @@ TEST(CounterList, ExplainsEverythingThatARunReports) {
   for (const std::vector<std::string>& choice : std::vector<std::vector<std::string>>{
            {"dram.model=DDR4-2400", "shader_cache.cells=4"},
            {"ray_cache.heuristic=none", "traversal.scheme=omni"},
+           {"traversal.scheme=interval", "flow.control=spill", "dram.model=HBM2-2000"},
            {"run.fidelity=functional", "render.recursion_level=0"}}) {
     std::vector<std::string> settings = small;
     settings.insert(settings.end(), choice.begin(), choice.end());
