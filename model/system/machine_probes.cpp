@@ -66,6 +66,7 @@ MachineProbes Machine::probes() {
 void Machine::probe_units(MachineProbes& probes) const {
   auto& units = probes.units;
   units.push_back(probe_stalls(*primary_source_));
+  if (spill_) units.push_back(probe_stalls(*spill_));
   if (ray_cache_) units.push_back(probe_stalls(*ray_cache_));
   if (spawn_router_) units.push_back(probe_stalls(*spawn_router_));
   units.push_back(probe_stalls(*packet_arbiter_));
@@ -97,8 +98,9 @@ void Machine::probe_links(MachineProbes& probes) const {
   links.push_back(probe_packets(*all.source_to_arbiter, packet_arbiter_->name()));
   if (all.packet_fifo) links.push_back(probe_packets(*all.packet_fifo, packet_arbiter_->name()));
   if (all.spawned_rays) {
-    links.push_back(
-        probe_link(*all.spawned_rays, ray_cache_ ? ray_cache_->name() : spawn_router_->name()));
+    const char* const regrouper = ray_cache_ ? ray_cache_->name() : spawn_router_->name();
+    links.push_back(probe_link(*all.spawned_rays, spill_ ? spill_->name() : regrouper));
+    if (spill_) links.push_back(probe_link(*all.spill_to_regrouper, regrouper));
   }
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
     links.push_back(probe_link(*all.arbiter_to_traversal[i], traversal_units_[i]->name()));

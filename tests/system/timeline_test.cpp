@@ -136,7 +136,8 @@ INSTANTIATE_TEST_SUITE_P(Machines, Timelines,
                          testing::Values(Words{}, Words{"dram.model=DDR4-2400"},
                                          Words{"ray_cache.heuristic=none", "link.depth=1",
                                                "flow.control=credits", "link.latency=1"},
-                                         Words{"packet_fifo.depth=1", "ray_cache.timeout=300"}));
+                                         Words{"packet_fifo.depth=1", "ray_cache.timeout=300"},
+                                         Words{"flow.control=spill", "flow.spill_queue=8"}));
 
 TEST(Timeline, LeadsEveryPacketFromWhereItWasMadeToWhereItIsShaded) {
   const WatchedRun run({});

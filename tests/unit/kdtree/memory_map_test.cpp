@@ -11,7 +11,8 @@ namespace sheaf::test {
 namespace {
 
 constexpr std::array kKinds{DataKind::kNode,      DataKind::kLeafList, DataKind::kTriangle,
-                            DataKind::kAttribute, DataKind::kTexture,  DataKind::kPixel};
+                            DataKind::kAttribute, DataKind::kTexture,  DataKind::kPixel,
+                            DataKind::kSpilledRay};
 
 MemoryCounts some_counts() {
   return {.nodes = 1001,
@@ -42,7 +43,14 @@ TEST(MemoryMap, RegionsFollowEachOtherOnPages) {
     EXPECT_LT(region.base - end, MemoryMap::kPage);
     end = region.base + region.size;
   }
-  EXPECT_EQ(map.total_size(), end - MemoryMap::kBase);
+}
+
+TEST(MemoryMap, EndsWithTheFrameBufferAndSpilledRaysComeBehindIt) {
+  const MemoryMap map(some_counts());
+  const MemoryMap::Region& pixels = map.region(DataKind::kPixel);
+  EXPECT_EQ(map.total_size(), pixels.base + pixels.size - MemoryMap::kBase);
+  EXPECT_GE(map.region(DataKind::kSpilledRay).base, pixels.base + pixels.size);
+  EXPECT_EQ(map.region(DataKind::kSpilledRay).size, 0U);
 }
 
 TEST(MemoryMap, RegionSizesAreThoseOfTheirRecords) {
