@@ -26,6 +26,11 @@ namespace sheaf {
 void catch_interrupts();
 [[nodiscard]] bool interrupted();
 
+/// Loads a scene as the configuration has it, with notes on standard error, and prepares it.
+/// Throws Error for what the user can mend.
+[[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,
+                                          const std::optional<std::filesystem::path>& trees);
+
 /// Something that takes part in a run: a recorder, or a trace in the shader's place.
 class FrameGuest {
  public:

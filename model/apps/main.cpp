@@ -9,6 +9,7 @@
 #include <new>
 #include <systemc>
 
+#include "apps/accuracy_command.h"
 #include "apps/coefficients_command.h"
 #include "apps/memory_command.h"
 #include "apps/observation.h"
@@ -31,6 +32,7 @@ constexpr const char* kFooter =
 struct Commands {
   sheaf::RunOptions run;
   sheaf::MemoryOptions memory;
+  sheaf::AccuracyOptions accuracy;
   sheaf::ReplayOptions replay;
   sheaf::StabilityOptions stability;
   std::string info_scene;
@@ -108,6 +110,7 @@ void declare(CLI::App& app, Commands& commands) {
   run->footer(kFooter);
 
   sheaf::declare_memory_command(app, commands.memory);
+  sheaf::declare_accuracy_command(app, commands.accuracy);
   declare_replay(app, commands.replay);
   sheaf::declare_stability_command(app, commands.stability);
 
@@ -143,6 +146,7 @@ std::string counters_output() {
 
 int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
+  if (app.got_subcommand("accuracy")) return sheaf::accuracy_command(commands.accuracy);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
   if (app.got_subcommand("stability")) return sheaf::stability_command(commands.stability);

@@ -32,6 +32,15 @@ class CacheArray {
     }
     entries_.resize((set_mask_ + 1) * ways_);
   }
+  CacheArray(const CacheArray& other)
+      : ways_(other.ways_),
+        set_mask_(other.set_mask_),
+        entries_(other.entries_),
+        other_(other.other_ ? std::make_unique<PolicyArray>(*other.other_) : nullptr) {}
+  CacheArray(CacheArray&&) = default;
+  CacheArray& operator=(const CacheArray& other) { return *this = CacheArray(other); }
+  CacheArray& operator=(CacheArray&&) = default;
+  ~CacheArray() = default;
   /// LRU, a sector a line.
   CacheArray(std::uint64_t sets, std::uint32_t ways)
       : CacheArray(ArrayShape{.sets = sets, .ways = ways}) {}

@@ -81,7 +81,7 @@ bool L2Cache::is_safe(Cycles event, Cycles now) const {
 void L2Cache::act(Cycles event) {
   const Cycles now = own_time_ = std::max(own_time_, event);
   domain_.happened(now);
-  take_answers(now);
+  if (!answers_.empty() && answers_.top().at <= now) take_answers(now);
   if (response_crossbar_) {
     response_crossbar_->cross(now, [this](const LineRequest& request, Cycles start) {
       responses_[request.requester]->write_ahead({request.address}, start);
@@ -123,18 +123,12 @@ void L2Cache::serve_queues(Cycles now) {
   }
 }
 
-// With requests put off by `lag`.
-Cycles L2Cache::next_event(Cycles lag) const {
-  Cycles next = *next_request_;
-  if (num_queued_ != 0) {
-    for (const Bank& bank : banks_) {
-      if (!bank.queue.empty() && can_take(bank)) next = std::min(next, bank.free_at);
-    }
+Cycles L2Cache::next_queued() const {
+  Cycles next = kNever;
+  for (const Bank& bank : banks_) {
+    if (!bank.queue.empty() && can_take(bank)) next = std::min(next, bank.free_at);
   }
-  if (request_crossbar_) next = std::min(next, next_crossing());
-  if (next != kNever) next += lag;
-  if (response_crossbar_) next = std::min(next, response_crossbar_->next_event());
-  return answers_.empty() ? next : std::min(next, answers_.top().at);
+  return next;
 }
 
 Cycles L2Cache::next_crossing() const {
@@ -250,7 +244,8 @@ bool L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
     pass_on(request, now);
   }
   if (request.acknowledged) {
-    responses_[request.requester]->write_ahead({request.address, true}, now + spec_.hit_latency);
+    responses_[request.requester]->write_ahead({LineResponse::kWriteTaken},
+                                               now + spec_.hit_latency);
   }
   return true;
 }
@@ -305,7 +300,12 @@ void L2Cache::fill(Address address, Cycles now) {
 
 // Puts a line in; what of another one is dirty leaves for DRAM.
 void L2Cache::put(const Place& where, bool dirty, Cycles now) {
-  const CacheArray::Victim victim = banks_[where.bank].array.fill(where.index, dirty);
+  CacheArray& array = banks_[where.bank].array;
+  if (was_loaded_ && array.touch(where.index)) {
+    if (dirty) array.mark_dirty(where.index);
+    return;
+  }
+  const CacheArray::Victim victim = array.fill(where.index, dirty);
   if (victim.dirty == 0) return;
   const std::uint64_t first = line_at({where.bank, victim.line});
   for (std::uint32_t left = victim.dirty; left != 0; left &= left - 1) {
@@ -347,6 +347,11 @@ tlm::tlm_sync_enum L2Cache::nb_transport_bw(tlm::tlm_generic_payload& payload,
   dram_done(payload, domain_.cycle_at_kernel_offset(delay));
   payload.release();
   return tlm::TLM_COMPLETED;
+}
+
+void L2Cache::load(const std::vector<CacheArray>& banks) {
+  for (std::size_t i = 0; i < banks_.size(); ++i) banks_[i].array = banks[i];
+  was_loaded_ = true;
 }
 
 bool L2Cache::is_idle() const {

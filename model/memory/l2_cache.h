@@ -4,6 +4,7 @@
 
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <functional>
@@ -86,6 +87,10 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Takes over the tags of banks of the same shape; counts nothing. Of a line that is on its way
+  /// there may be one already when it comes.
+  void load(const std::vector<CacheArray>& banks);
+
   [[nodiscard]] const L2Stats& stats() const { return stats_; }
   [[nodiscard]] const L2KindStats& kind_stats(DataKind kind) const {
     return kind_stats_[static_cast<std::size_t>(kind)];
@@ -122,8 +127,9 @@ class L2Cache final : public sc_core::sc_module, public Agent {
     std::uint32_t num_writes_out = 0;
     bool blocked = false;  ///< its first request waits for an MSHR
   };
-  /// A line on its way from DRAM, or a write that has been done there. Of those of the same cycle the
-  /// lowest address is first, in whatever order a memory of several channels gave notice of them.
+  /// A line on its way from DRAM, or a write that has been done there. Of those of the same cycle
+  /// the lowest address is first, in whatever order a memory of several channels gave notice of
+  /// them.
   struct Answer {
     Cycles at = 0;
     Address address = 0;
@@ -160,7 +166,16 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void count_queued(std::ptrdiff_t change, Cycles now);
   void count_mshrs(std::ptrdiff_t change, Cycles now);
   [[nodiscard]] Cycles next_event() const { return next_event(0); }
-  [[nodiscard]] Cycles next_event(Cycles lag) const;
+  /// With requests put off by `lag`.
+  [[nodiscard]] Cycles next_event(Cycles lag) const {
+    Cycles next = *next_request_;
+    if (num_queued_ != 0) next = std::min(next, next_queued());
+    if (request_crossbar_) next = std::min(next, next_crossing());
+    if (next != kNever) next += lag;
+    if (response_crossbar_) next = std::min(next, response_crossbar_->next_event());
+    return answers_.empty() ? next : std::min(next, answers_.top().at);
+  }
+  [[nodiscard]] Cycles next_queued() const;
   [[nodiscard]] Cycles next_crossing() const;
   [[nodiscard]] bool is_safe(Cycles event, Cycles now) const;
   L2KindStats& kind_of(const LineRequest& request) {
@@ -201,6 +216,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   unsigned bank_shift_;
   unsigned sector_shift_;
   std::vector<Bank> banks_;
+  bool was_loaded_ = false;
   std::size_t num_queued_ = 0;       ///< requests in all banks' queues
   std::size_t num_outstanding_ = 0;  ///< MSHRs in use in all banks
   Cycles own_time_ = 0;              ///< of the last event

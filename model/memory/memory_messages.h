@@ -13,14 +13,15 @@ struct LineRequest {
   std::uint32_t bytes = 0;
   std::uint16_t requester = 0;
   DataKind kind{};
-  bool write = false;
-  bool acknowledged = false;  ///< a write that is to be answered
+  bool write : 1 = false;
+  bool acknowledged : 1 = false;  ///< a write that is to be answered
 };
 
 /// From the L2 to a private cache: the line that was asked for, or that a write was taken.
 struct LineResponse {
+  static constexpr Address kWriteTaken = ~Address{0};
   Address address = 0;
-  bool of_write = false;
+  [[nodiscard]] bool of_write() const { return address == kWriteTaken; }
 };
 
 }  // namespace sheaf

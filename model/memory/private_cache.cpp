@@ -79,7 +79,7 @@ void PrivateCache::count_occupancy(Cycles now) {
 std::uint64_t PrivateCache::fill(const LineResponse& response, Cycles now, std::uint64_t& retry) {
   retry |= waiting_for_room_;
   waiting_for_room_ = 0;
-  if (response.of_write) {
+  if (response.of_write()) {
     --num_writes_out_;
     return 0;
   }
@@ -90,13 +90,10 @@ std::uint64_t PrivateCache::fill(const LineResponse& response, Cycles now, std::
   const Mshr filled = mshrs_[i];
   mshrs_[i] = mshrs_[--num_mshrs_used_];
   stats_.sum_miss_latency += now - filled.since;
-  if (filled.dirty && spec_.write.policy == WritePolicy::kThrough) {
-    ++stats_.num_writes_through;
-    send_write(response.address, line_size(), now);
-  }
-  const bool dirty = filled.dirty && spec_.write.policy == WritePolicy::kBack;
-  if (!spec_.write.allocate) {
-    if (dirty) write_back(line, now);
+  const bool dirty = filled.dirty && !writes_arrived(line, now);
+  if (!spec_.write.allocate) return filled.waiters;
+  if (was_loaded_ && array_.touch(line)) {
+    if (dirty) array_.mark_dirty(line);
     return filled.waiters;
   }
   const CacheArray::Victim victim = array_.fill(line, dirty);
@@ -104,6 +101,17 @@ std::uint64_t PrivateCache::fill(const LineResponse& response, Cycles now, std::
     write_back(victim.line + static_cast<std::uint32_t>(std::countr_zero(left)), now);
   }
   return filled.waiters;
+}
+
+// Of a line that was written while it was on its way; false if it stays to be written back.
+bool PrivateCache::writes_arrived(std::uint64_t line, Cycles now) {
+  if (spec_.write.policy == WritePolicy::kThrough) {
+    ++stats_.num_writes_through;
+    send_write(line << line_shift_, line_size(), now);
+    return true;
+  }
+  if (!spec_.write.allocate) write_back(line, now);
+  return !spec_.write.allocate;
 }
 
 void PrivateCache::write_back(std::uint64_t line, Cycles now) {
@@ -118,6 +126,11 @@ void PrivateCache::send_write(Address address, Bytes bytes, Cycles now) {
   requests_.write_ahead(
       {address, static_cast<std::uint32_t>(bytes), requester_, written_kind_, true, bounded}, now,
       requester_);
+}
+
+void PrivateCache::load(const CacheArray& tags) {
+  array_ = tags;
+  was_loaded_ = true;
 }
 
 std::vector<std::uint64_t> PrivateCache::take_dirty_lines() {

@@ -104,6 +104,10 @@ class PrivateCache {
     return spec_.write.buffer == 0 || num_writes_out_ < spec_.write.buffer;
   }
 
+  /// Takes over the tags of a cache of the same shape; counts nothing. Of a line that is on its way
+  /// there may be one already when it comes.
+  void load(const CacheArray& tags);
+
   [[nodiscard]] bool has_pending() const { return num_mshrs_used_ != 0 || num_writes_out_ != 0; }
   [[nodiscard]] const CacheStats& stats() const { return stats_; }
   [[nodiscard]] const CacheKindStats& kind_stats(DataKind kind) const {
@@ -130,6 +134,7 @@ class PrivateCache {
   Result miss(std::uint64_t line, DataKind kind, int waiter, bool dirty, Cycles now);
   Result wait_for_room(std::uint64_t& counter, int waiter);
   void count_occupancy(Cycles now);
+  bool writes_arrived(std::uint64_t line, Cycles now);
   void send_write(Address address, Bytes bytes, Cycles now);
 
   const CacheSpec spec_;
@@ -139,6 +144,7 @@ class PrivateCache {
   bool is_plain_;
   std::uint32_t most_targets_;
   CacheArray array_;
+  bool was_loaded_ = false;
   std::vector<Mshr> mshrs_;  ///< the first num_mshrs_used_ are in use
   std::uint32_t num_mshrs_used_ = 0;
   std::uint64_t waiting_for_room_ = 0;

@@ -89,12 +89,12 @@ void Machine::build_units() {
                            bundles_,     batches_, frame_.rays,   flow_};
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
-                        packet_size);
+                        packet_size, hooks_.tile_choice);
   TimedOut<LineRequest>& memory = *links_.caches_to_l2;
 
-  primary_source_ = std::make_unique<PrimarySource>("primary_source", config_.primary_source,
-                                                    config_.image, order, scene_.scene.camera,
-                                                    packets_, frame_.rays, flow_, domain_);
+  primary_source_ = std::make_unique<PrimarySource>(
+      "primary_source", config_.primary_source, config_.image, order, scene_.scene.camera, packets_,
+      frame_.rays, flow_, domain_, hooks_.tiles);
   packet_arbiter_ = std::make_unique<PacketArbiter>("packet_arbiter", config_.packet_arbiter,
                                                     config_.traversal_unit.count,
                                                     config_.traversal_unit.contexts, domain_);
@@ -145,19 +145,42 @@ void Machine::build_regrouper() {
                                      (plan_.ray_cache ? config_.ray_cache.latency : 0)});
   links_.spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
       "spawned_rays",
-      TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
+      TimedChannel<SpawnBundle*>::Spec{
+          .capacity = config_.flow.control == FlowPolicy::kSpill ? config_.link.depth : kNeverFull,
+          .latency = config_.link.latency});
+  if (config_.flow.control == FlowPolicy::kSpill) build_spill();
+  auto& bundles = links_.spill_to_regrouper ? *links_.spill_to_regrouper : *links_.spawned_rays;
   if (plan_.ray_cache) {
     const SorterOptions options = sorter_options(config_, plan_, scene_.scene.bounds);
     ray_cache_ = std::make_unique<RayCacheUnit>("ray_cache", config_.ray_cache,
                                                 make_sorter(options, scene_.scene.bounds, packets_),
                                                 bundles_, flow_, domain_);
-    ray_cache_->in_bundles(*links_.spawned_rays);
+    ray_cache_->in_bundles(bundles);
     ray_cache_->out_packets(*links_.packet_fifo);
   } else {
     spawn_router_ = std::make_unique<SpawnRouter>("spawn_router", packets_, bundles_, domain_);
-    spawn_router_->in_bundles(*links_.spawned_rays);
+    spawn_router_->in_bundles(bundles);
     spawn_router_->out_packets(*links_.packet_fifo);
   }
+}
+
+// The queue that spills stands right before whoever takes the rays in.
+void Machine::build_spill() {
+  links_.spill_to_regrouper = std::make_unique<TimedChannel<SpawnBundle*>>(
+      "spill_to_regrouper", TimedChannel<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
+  CacheSpec line;
+  line.line = config_.l2.line / config_.l2.sectors;
+  const std::uint16_t requester = add_requester(line);
+  spill_ = std::make_unique<SpillUnit>(
+      "spill",
+      SpillUnit::Spec{.queue = config_.flow.spill_queue,
+                      .line = line.line,
+                      .base = scene_.memory.region(DataKind::kSpilledRay).base,
+                      .requester = requester},
+      *links_.caches_to_l2, domain_);
+  spill_->in_bundles(*links_.spawned_rays);
+  spill_->out_bundles(*links_.spill_to_regrouper);
+  spill_->in_lines(*links_.l2_to_caches.back());
 }
 
 void Machine::connect() {
@@ -249,7 +272,8 @@ bool Machine::run(const Monitor& monitor) {
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
-  end_ = domain_.latest() + 1;
+  const bool cut = !domain_.ran_dry() && !domain_.stopped();
+  end_ = cut ? config_.run.max_cycles : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   num_wakes_ = domain_.num_wakes();
   for (MachineObserver* observer : observers_) observer->finish(end_);
@@ -278,6 +302,7 @@ std::string Machine::describe_stuck() const {
   add(packet_arbiter_.get());
   add(ray_cache_.get());
   add(spawn_router_.get());
+  add(spill_.get());
   add(film_.get());
   add(l2_.get());
   if (links_.packet_fifo && links_.packet_fifo->size() != 0) {

@@ -11,6 +11,7 @@
 #include "memory/main_memory.h"
 #include "system/machine_observer.h"
 #include "system/machine_parts.h"
+#include "system/tag_hierarchy.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
 #include "units/packet_arbiter.h"
@@ -19,6 +20,7 @@
 #include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -61,12 +63,21 @@ class Machine : public MachineParts<TimedKind> {
   /// Adds an observer; to be called before run().
   void observe(MachineObserver& observer);
 
+  /// What has been counted up to now, or, after the run, in all.
+  [[nodiscard]] Observation observation(Cycles now) const;
+  /// Makes the caches hold what `tags` says, but for what is on its way; nothing is counted. For a
+  /// run that leaves something out.
+  void load_caches(const TagHierarchy& tags);
+  /// Length of the run, once it has ended.
+  [[nodiscard]] Cycles end() const { return end_; }
+
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 
  private:
   void build_memory();
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void connect_shader_cache();

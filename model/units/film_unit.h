@@ -39,6 +39,7 @@ class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
 
   [[nodiscard]] const FilmStats& stats() const { return stats_; }
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  [[nodiscard]] PrivateCache& cache() { return cache_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
 

@@ -25,6 +25,7 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
 
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  [[nodiscard]] PrivateCache& cache() { return cache_; }
   /// The job of a context that is held.
   [[nodiscard]] const LeafJob& job(int context) const {
     return contexts_[static_cast<std::size_t>(context)].job;

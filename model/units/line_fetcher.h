@@ -32,7 +32,6 @@ class LineFetcher {
                 Cycles now) {
     LineFetch& progress = progress_[static_cast<std::size_t>(context)];
     Outcome outcome;
-    const std::uint32_t begin = progress.next;
     while (progress.next < num_lines) {
       ++outcome.port_cycles;
       const auto result = cache_.read(line(progress.next), kind, context, now);
@@ -41,8 +40,10 @@ class LineFetcher {
       ++progress.next;
     }
     if (!cache_.is_plain()) {
+      // The last look-up came to nothing if a line is left.
+      const std::uint32_t end = progress.next + (progress.next < num_lines ? 1 : 0);
       const auto looked_up = static_cast<std::uint32_t>(outcome.port_cycles);
-      outcome.port_cycles = cache_.port_cycles(begin, begin + looked_up, line);
+      outcome.port_cycles = cache_.port_cycles(end - looked_up, end, line);
     }
     outcome.complete = progress.next == num_lines && progress.pending == 0;
     if (outcome.complete) progress = {};

@@ -24,7 +24,7 @@ std::uint32_t make_primary_packet(const Camera& camera, const ImageSpec& image,
 PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimarySourceSpec& spec,
                              const ImageSpec& image, const TileOrder& order, const Camera& camera,
                              PacketPool& packets, RayCounts& rays, FlowControl& flow,
-                             ClockDomain& domain)
+                             ClockDomain& domain, TileObserver* observer)
     : sc_module(name),
       SteppingAgent(domain),
       out_packets("out_packets"),
@@ -34,7 +34,8 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
       camera_(camera),
       packets_(packets),
       rays_(rays),
-      flow_(flow) {
+      flow_(flow),
+      observer_(observer) {
   const std::size_t agent = domain.add(*this);
   inbox_.bind(domain, agent);
   flow.bind_source(inbox_);
@@ -58,13 +59,13 @@ bool PrimarySource::prepare_packet(Cycles now) {
       ++stats_.num_tiles;
     }
     if (!order_.next_run(run)) {
-      const bool last = order_.tile_index() + 1 == order_.num_tiles();
-      if (flow_.by_tile() && flow_.live() != 0 && !last) {
+      if (flow_.by_tile() && flow_.live() != 0 && !order_.is_last()) {
         flow_.set_source(FlowControl::Source::kTileIssued, now);
         return false;
       }
       order_.next_tile();
       tile_begun_ = false;
+      num_admitted_ = 0;
       continue;
     }
     packet_ = packets_.acquire();
@@ -101,6 +102,7 @@ Cycles PrimarySource::act(Cycles now) {
   for (LaneMask left = packet_->active; left != 0; left &= left - 1) {
     rays_.spawn(packet_->tag[static_cast<std::size_t>(std::countr_zero(left))]);
   }
+  if (num_admitted_++ == 0 && observer_ != nullptr) observer_->tile_begins(order_.tile(), now);
   ++stats_.num_packets;
   stats_.num_rays += rays;
   flow_.admit(rays, reservation_, now);
@@ -116,7 +118,7 @@ std::string PrimarySource::stuck_reason() const {
   const char* why = "the tile has not finished";
   if (flow_.source() == FlowControl::Source::kNoCredit) why = "no credit for the next packet";
   if (flow_.source() == FlowControl::Source::kIssuing) why = "its link to the arbiter is full";
-  return fmt::format("{}: {} of {} tiles begun, {}", name(), order_.tile_index(),
+  return fmt::format("{}: {} of {} tiles begun, {}", name(), order_.num_visited(),
                      order_.num_tiles(), why);
 }
 

@@ -169,6 +169,11 @@ void ShaderUnit::send_output(int number, Cycles now) {
     }
     context.batch = nullptr;
   }
+  if (context.bundle != nullptr && out_bundles->num_free(now) == 0) {
+    out_bundles->notify_when_free(inbox_);
+    block(number);
+    return;
+  }
   std::uint64_t spawned = 0;
   std::uint64_t reserved = 0;
   if (context.bundle != nullptr) {
@@ -177,7 +182,6 @@ void ShaderUnit::send_output(int number, Cycles now) {
       reserved += scene_.flow.worst_case(ray.tag);
     }
     spawned = context.bundle->rays.size();
-    // Flow control keeps this link from ever being full.
     out_bundles->nb_write(context.bundle, now);
     context.bundle = nullptr;
   }

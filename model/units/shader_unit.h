@@ -57,10 +57,12 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
     return contexts_[static_cast<std::size_t>(context)].packet;
   }
   [[nodiscard]] const PrivateCache& attribute_cache() const { return attributes_; }
+  [[nodiscard]] PrivateCache& attribute_cache() { return attributes_; }
   /// Null if the scene has no textures.
   [[nodiscard]] const PrivateCache* texture_cache() const {
     return textures_ ? &*textures_ : nullptr;
   }
+  [[nodiscard]] PrivateCache* texture_cache() { return textures_ ? &*textures_ : nullptr; }
   [[nodiscard]] std::string stuck_reason() const override;
 
  private:

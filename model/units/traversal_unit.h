@@ -61,6 +61,7 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   [[nodiscard]] const TraceCounts& primary_counts() const { return primary_counts_; }
   [[nodiscard]] const TraceCounts& secondary_counts() const { return secondary_counts_; }
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  [[nodiscard]] PrivateCache& cache() { return cache_; }
   /// The packet of a context that is held.
   [[nodiscard]] const RayPacket* packet(int context) const {
     return contexts_[static_cast<std::size_t>(context)].packet;

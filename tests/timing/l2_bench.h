@@ -100,7 +100,7 @@ struct L2Test : testing::Test {
       TimedChannel<LineResponse>& link = *responses[cache];
       while (link.has_arrived(now)) {
         const LineResponse response = link.read(now);
-        arrived.push_back({now, response.address, cache, response.of_write});
+        arrived.push_back({now, response.address, cache, response.of_write()});
       }
       if (link.next_arrival() != kNever) requester.inbox().nudge(link.next_arrival());
     }

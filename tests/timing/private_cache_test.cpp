@@ -36,7 +36,7 @@ struct PrivateCacheTest : testing::Test {
   /// A write taken by the next level.
   std::uint64_t acknowledge(PrivateCache& cache) {
     std::uint64_t retry = 0;
-    cache.fill({0, true}, 0, retry);
+    cache.fill({LineResponse::kWriteTaken}, 0, retry);
     return retry;
   }
   std::uint64_t fill(PrivateCache& cache, std::uint64_t line, Cycles now = 0) {

@@ -56,7 +56,7 @@ bool PrimarySource::prepare_packet(Cycles now) {
     if (!tile_begun_) ++stats_.num_tiles;
     tile_begun_ = true;
     if (order_.next_run(run)) break;
-    const bool last = order_.tile_index() + 1 == order_.num_tiles();
+    const bool last = order_.is_last();
     if (flow_.by_tile() && flow_.live() != 0 && !last) {
       flow_.set_source(FlowControl::Source::kTileIssued, now);
       return false;

@@ -32,7 +32,7 @@ class PrimarySource {
   void finish(Cycles end) { stalls_.finish(end); }
   /// Share of the tiles that have been begun, 0 to 1.
   [[nodiscard]] double progress() const {
-    return static_cast<double>(order_.tile_index()) / order_.num_tiles();
+    return static_cast<double>(order_.num_visited()) / order_.num_tiles();
   }
 
  private:
