@@ -67,15 +67,6 @@ class PrivateCache {
     }
     return miss(line, kind, waiter, false, now);
   }
-  /// As read() if the line is there; else false, and nothing happens.
-  bool read_if_hit(std::uint64_t line, DataKind kind) {
-    if (spec_.mode != CacheMode::kPerfect && !array_.touch(line)) return false;
-    count_hit(kind);
-    return true;
-  }
-  [[nodiscard]] bool holds(std::uint64_t line) const {
-    return spec_.mode == CacheMode::kPerfect || array_.holds(line);
-  }
   /// As read(), for a read-modify-write of some bytes of one line, which is dirty from now on or
   /// once it has arrived; with write-through the bytes, or what has gathered in the MSHR, go on.
   Result modify(Address address, Bytes bytes, DataKind kind, int waiter, Cycles now);

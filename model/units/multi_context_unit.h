@@ -45,8 +45,7 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
-  // Flattened: a wake-up is a few short calls, each of which would save and restore registers.
-  [[gnu::flatten]] Cycles wake(Cycles now) final {
+  Cycles wake(Cycles now) final {
     // What arrives behind the unit's own time found no free context until then.
     if (now <= latest_ && !resumes_) return latest_ + 1;
     resumes_ = false;

@@ -101,7 +101,7 @@ TEST(Png, HasTheSameBytesEveryTime) {
 }
 
 TEST(Png, RefusesPixelsThatDoNotFit) {
-  const std::vector<Vec3> pixels(5);
+  const std::vector<Vec3> pixels(3);
   EXPECT_THROW(encode_png(2, 2, pixels), std::logic_error);
   EXPECT_THROW(encode_png(0, 0, {}), std::logic_error);
 }
