@@ -247,7 +247,8 @@ bool Machine::run(const Monitor& monitor) {
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
-  end_ = domain_.latest() + 1;
+  const bool cut = !domain_.ran_dry() && !domain_.stopped();
+  end_ = cut ? domain_.end() : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   num_wakes_ = domain_.num_wakes();
   finish_accounts(end_);

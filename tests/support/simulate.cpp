@@ -15,6 +15,7 @@
 #include "config/read_config.h"
 #include "report/stats_json.h"
 #include "scene/load_gltf.h"
+#include "system/clocked_machine.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
 #include "system/report_parts.h"
@@ -66,10 +67,18 @@ Outcome run_here(const Config& config, const PreparedScene& scene, bool in_step)
     const BuildPlan plan = plan_machine(config, scene.scene.needs);
     Frame frame(config);
     StatsTree stats;
-    outcome.complete =
-        config.run.fidelity == Fidelity::kFunctional
-            ? simulate<FunctionalPipeline>(config, plan, scene, frame, in_step, stats)
-            : simulate<Machine>(config, plan, scene, frame, in_step, stats);
+    const auto run = [&] {
+      switch (config.run.fidelity) {
+        case Fidelity::kFunctional:
+          return simulate<FunctionalPipeline>(config, plan, scene, frame, in_step, stats);
+        case Fidelity::kTimed:
+          break;
+        case Fidelity::kClocked:
+          return simulate<ClockedMachine>(config, plan, scene, frame, in_step, stats);
+      }
+      return simulate<Machine>(config, plan, scene, frame, in_step, stats);
+    };
+    outcome.complete = run();
     report_rays(frame.rays, stats);
     outcome.stats = nlohmann::json::parse(stats_json(stats));
     for (std::uint32_t i = 0; i < config.image.width * config.image.height; ++i) {

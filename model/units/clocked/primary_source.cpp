@@ -9,7 +9,7 @@ namespace sheaf::clocked {
 PrimarySource::PrimarySource(std::string name, const PrimarySourceSpec& spec,
                              const ImageSpec& image, const TileOrder& order, const Camera& camera,
                              PacketPool& packets, RayCounts& rays, FlowControl& flow)
-    : name_(std::move(name)),
+    : Unit(std::move(name)),
       spec_(spec),
       image_(image),
       order_(order),
@@ -18,11 +18,8 @@ PrimarySource::PrimarySource(std::string name, const PrimarySourceSpec& spec,
       rays_(rays),
       flow_(flow) {}
 
-void PrimarySource::tick(Cycles now) {
-  if (now >= next_packet_) stalls_.switch_to(act(now), now);
-}
-
 StallCause PrimarySource::act(Cycles now) {
+  if (now < next_packet_) return StallCause::kBusy;
   if (packet_ == nullptr && !prepare_packet(now)) {
     return order_.is_done() ? StallCause::kIdle : StallCause::kWaitingInput;
   }
