@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "config/config_text.h"
+#include "energy/energy_report.h"
 #include "report/images.h"
 #include "report/progress.h"
 #include "report/stats_json.h"
@@ -67,8 +68,9 @@ class Stopwatch {
 };
 
 /// Simulates; fills the frame and the statistics. Returns true if the frame is complete.
-bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
+bool simulate(const FrameJob& job, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
               FrameGuest* guest, StatsTree& stats) {
+  const Config& config = job.config;
   Progress progress;
   const RunHooks hooks = guest != nullptr ? guest->hooks() : RunHooks{};
   const auto stop = [&] { return interrupt_seen != 0 || (guest != nullptr && guest->failed()); };
@@ -81,7 +83,7 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
     pipeline.report(stats);
     return complete;
   }
-  const auto run = [&](auto&& machine) {
+  const auto run = [&](auto& machine) {
     const bool complete = machine.run([&](double share, Cycles now) {
       progress.update(share, fmt::format("cycle {}", now));
       return stop();
@@ -90,9 +92,12 @@ bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& 
     return complete;
   };
   if (config.run.fidelity == Fidelity::kClocked) {
-    return run(ClockedMachine(config, plan, scene, frame, hooks));
+    ClockedMachine machine(config, plan, scene, frame, hooks);
+    return run(machine);
   }
-  return run(Machine(config, plan, scene, frame, hooks));
+  Machine machine(config, plan, scene, frame, hooks);
+  for (MachineObserver* observer : job.observers) machine.observe(*observer);
+  return run(machine);
 }
 
 }  // namespace
@@ -136,9 +141,10 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   report_scene(scene, plan, stats);
   const std::unique_ptr<FrameGuest> guest = job.guest ? job.guest(scene, frame) : nullptr;
   const Stopwatch run_watch;
-  const bool complete = simulate(config, plan, scene, frame, guest.get(), stats);
+  const bool complete = simulate(job, plan, scene, frame, guest.get(), stats);
   const double run_seconds = run_watch.seconds();
   report_rays(frame.rays, stats);
+  report_energy(config, plan, stats);
   if (config.measure.coherence && complete) {
     CoherencePass coherence(config, scene);
     coherence.run();

@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/config.h"
 #include "report/result_folder.h"
 #include "stats/report_tree.h"
 #include "system/frame.h"
+#include "system/machine_observer.h"
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
 
@@ -44,6 +46,7 @@ struct FrameJob {
   /// Called once the scene is loaded; may be null.
   std::function<std::unique_ptr<FrameGuest>(const PreparedScene&, Frame&)> guest;
   std::optional<std::filesystem::path> trees = {};  ///< folder of the TreeCache; none: no cache
+  std::vector<MachineObserver*> observers = {};     ///< of a timed run
 };
 
 /// Loads the scene, builds, simulates and writes the result folder. Returns an exit code; throws

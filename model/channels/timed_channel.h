@@ -147,6 +147,14 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Of these, the ones written by `now`.
+  [[nodiscard]] std::size_t num_held(Cycles now) const {
+    std::size_t held = size_;
+    while (held != 0 && at(held - 1).ready > now) --held;
+    return held;
+  }
+  /// The i-th value from the back, 0 the newest; there must be that many.
+  [[nodiscard]] const T& from_back(std::size_t i) const { return at(size_ - 1 - i).value; }
   /// Most values held at the beginning of a cycle in which one was read, which is the most ever
   /// held, since their number only grows between two reads.
   [[nodiscard]] std::size_t max_size() const { return max_size_; }
@@ -196,6 +204,9 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   [[nodiscard]] Entry& at(std::size_t position) {
+    return ring_[(head_ + position) & (ring_.size() - 1)];
+  }
+  [[nodiscard]] const Entry& at(std::size_t position) const {
     return ring_[(head_ + position) & (ring_.size() - 1)];
   }
   // Values that a producer ahead in time has written do not count yet; those that one behind in

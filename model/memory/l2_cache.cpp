@@ -73,7 +73,9 @@ bool L2Cache::is_safe(Cycles event, Cycles now) const {
   return requests_ahead_.is_beyond(event);
 }
 
-void L2Cache::act(Cycles now) {
+// With a quantum an event may lie behind others that have been dealt with.
+void L2Cache::act(Cycles event) {
+  const Cycles now = own_time_ = std::max(own_time_, event);
   domain_.happened(now);
   while (!fills_.empty() && fills_.top().at <= now) {
     const Address address = fills_.top().address;

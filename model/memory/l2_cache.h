@@ -114,7 +114,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void send_to_dram(Address address, Bytes bytes, bool write, Cycles at);
   void dram_done(const tlm::tlm_generic_payload& payload, Cycles at);
   void fill(Address address, Cycles now);
-  void act(Cycles now);
+  void act(Cycles event);
   [[nodiscard]] Cycles next_event() const { return next_event(0); }
   [[nodiscard]] Cycles next_event(Cycles lag) const;
   [[nodiscard]] bool is_safe(Cycles event, Cycles now) const;
@@ -140,6 +140,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   unsigned bank_shift_;
   std::vector<Bank> banks_;
   std::size_t num_queued_ = 0;  ///< requests in all banks' queues
+  Cycles own_time_ = 0;         ///< of the last event
 
   std::priority_queue<Fill, std::vector<Fill>, std::greater<>> fills_;
   std::vector<TimedOut<LineResponse>*> responses_;

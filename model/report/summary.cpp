@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "report/energy_summary.h"
 #include "report/table.h"
 #include "stats/stall_account.h"
 
@@ -24,6 +25,7 @@ class Summary {
     if (has("system.ray_cache.num_insertions")) ray_cache();
     coherence();
     if (has("system.dram.num_reads")) memory();
+    text_ += summarize_energy(in_.stats);
     left_out();
     wall_time();
     return text_;

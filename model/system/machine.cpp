@@ -38,6 +38,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
                  Frame& frame, const RunHooks& hooks)
     : MachineParts(config, plan, scene, frame, hooks),
       domain_("clock_domain", period_of(config.clock.frequency)) {
+  if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
   build_memory();
   build_units();
   if (plan_.secondary_rays) build_regrouper();
@@ -251,6 +252,7 @@ bool Machine::run(const Monitor& monitor) {
   end_ = cut ? domain_.end() : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   num_wakes_ = domain_.num_wakes();
+  for (MachineObserver* observer : observers_) observer->finish(end_);
   finish_accounts(end_);
   if (domain_.ran_dry()) {
     if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());

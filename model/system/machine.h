@@ -9,6 +9,7 @@
 #include "channels/clock_domain.h"
 #include "memory/l2_cache.h"
 #include "memory/main_memory.h"
+#include "system/machine_observer.h"
 #include "system/machine_parts.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
@@ -57,6 +58,9 @@ class Machine : public MachineParts<TimedKind> {
   /// progress, Error(kBug) if a conservation check fails.
   bool run(const Monitor& monitor);
 
+  /// Adds an observer; to be called before run().
+  void observe(MachineObserver& observer);
+
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 
  private:
@@ -68,8 +72,12 @@ class Machine : public MachineParts<TimedKind> {
   void connect_shader_cache();
   [[nodiscard]] std::string describe_stuck() const;
   [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
+  [[nodiscard]] MachineProbes probes();
+  void probe_units(MachineProbes& probes) const;
+  void probe_links(MachineProbes& probes) const;
 
   ClockDomain domain_;
+  std::vector<MachineObserver*> observers_;
 };
 
 }  // namespace sheaf

@@ -12,13 +12,13 @@ FilmUnit::FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, 
                    const MemoryMap& memory, ObjectPool<FilmBatch>& batches, FlowControl& flow,
                    ClockDomain& domain, TimedOut<LineRequest>& requests, std::uint16_t requester)
     : sc_module(name),
+      SteppingAgent(domain),
       in_batches("in_batches"),
       in_lines("in_lines"),
       film_(film),
       memory_(memory),
       batches_(batches),
       flow_(flow),
-      domain_(domain),
       cache_(cache, requests, requester) {
   inbox_.bind(domain, domain.add(*this));
   flow.bind_film(inbox_);
@@ -30,16 +30,7 @@ void FilmUnit::end_of_elaboration() {
   cache_.bind(inbox_);
 }
 
-Cycles FilmUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles FilmUnit::act(Cycles now) {
-  domain_.happened(now);
   accept_lines(now);
   if (batch_ == nullptr && in_batches->has_arrived(now)) {
     batch_ = in_batches->read(now);

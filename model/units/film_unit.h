@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/object_pool.h"
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "image/film.h"
 #include "kdtree/memory_map.h"
@@ -25,7 +26,7 @@ SHEAF_STATS(FilmStats, SHEAF_FILM_COUNTERS);
 /// cache. An addition whose line is on its way waits in that line's MSHR, so that only a lack of
 /// MSHRs holds the unit up. When the last ray has retired, the dirty lines are written back, one a
 /// cycle.
-class FilmUnit final : public sc_core::sc_module, public Agent {
+class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
  public:
   FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, Film& film,
            const MemoryMap& memory, ObjectPool<FilmBatch>& batches, FlowControl& flow,
@@ -34,7 +35,6 @@ class FilmUnit final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedIn<FilmBatch*>> in_batches;
   sc_core::sc_port<TimedIn<LineResponse>> in_lines;
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   [[nodiscard]] const FilmStats& stats() const { return stats_; }
@@ -44,7 +44,7 @@ class FilmUnit final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   void accept_lines(Cycles now);
   bool add_next(Cycles now);
   Cycles flush_next(Cycles now);
@@ -53,7 +53,6 @@ class FilmUnit final : public sc_core::sc_module, public Agent {
   const MemoryMap& memory_;
   ObjectPool<FilmBatch>& batches_;
   FlowControl& flow_;
-  ClockDomain& domain_;
   Inbox inbox_;
   PrivateCache cache_;
   FilmBatch* batch_ = nullptr;  ///< being added

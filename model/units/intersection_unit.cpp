@@ -54,52 +54,28 @@ Cycles IntersectionUnit::earliest_input() {
   return std::min(job, earliest_answer(parked(), lines_ahead_));
 }
 
-void IntersectionUnit::ready(int number, Cycles now) {
+bool IntersectionUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   switch (context.phase) {
     case Phase::kList:
     case Phase::kTriangle:
-      enqueue(number);
-      return;
+      return true;
     case Phase::kTriangleIssued:
       ++context.tested;
       [[fallthrough]];
     case Phase::kListIssued:
       if (context.tested < context.job.num_tests) {
         context.phase = Phase::kTriangle;
-        enqueue(number);
-        return;
+        return true;
       }
       // The link has room for every context of the traversal unit.
       out_done[context.job.unit]->write_ahead({context.job.context}, now, context.job.context);
       free_context(number);
+      look_again();
       inbox_.set_next(std::min(inbox_.next(), std::max(jobs_.next_arrival(), now + 1)));
-      return;
+      return false;
   }
-}
-
-IntersectionUnit::QuickStep IntersectionUnit::step_if_hit(int number) {
-  Context& context = contexts_[static_cast<std::size_t>(number)];
-  const bool after_test = context.phase == Phase::kTriangleIssued;
-  if (!after_test && context.phase != Phase::kListIssued) return {};
-  const std::uint32_t position = context.tested + (after_test ? 1 : 0);
-  if (position == context.job.num_tests) return {};
-  const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
-  const Address address = scene_.memory.triangle(scene_.tree.leaf_triangles[first + position]);
-  const std::uint64_t first_line = cache_.line_of(address);
-  const std::uint64_t last_line = cache_.line_of(address + MemoryMap::kTriangleSize - 1);
-  for (std::uint64_t line = first_line + 1; line <= last_line; ++line) {
-    if (!cache_.holds(line)) return {};
-  }
-  if (!cache_.read_if_hit(first_line, DataKind::kTriangle)) return {};
-  for (std::uint64_t line = first_line + 1; line <= last_line; ++line) {
-    cache_.read_if_hit(line, DataKind::kTriangle);
-  }
-  context.tested = position;
-  context.phase = Phase::kTriangleIssued;
-  const Cycles lookups = last_line - first_line + 1;
-  return {true, std::max(slots_per_step_ * spec_.initiation_interval, lookups),
-          cache_.hit_latency() + spec_.latency};
+  return false;
 }
 
 bool IntersectionUnit::fetch(int number, Address first, Bytes bytes, DataKind kind,

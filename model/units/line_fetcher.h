@@ -44,6 +44,18 @@ class LineFetcher {
     return outcome;
   }
 
+  /// The same for a step that needs one line.
+  bool fetch_one(int context, std::uint64_t line, DataKind kind, Cycles now) {
+    LineFetch& progress = progress_[static_cast<std::size_t>(context)];
+    if (progress.next != 0) {  // it has come
+      progress.next = 0;
+      return true;
+    }
+    const auto result = cache_.read(line, kind, context, now);
+    if (result == PrivateCache::Result::kPending) progress = {1, 1};
+    return result == PrivateCache::Result::kHit;
+  }
+
   /// Takes an arrived line in; calls ready(context) for each context that may be issued again.
   template <typename Ready>
   void fill(const LineResponse& response, Cycles now, const Ready& ready) {

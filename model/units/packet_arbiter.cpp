@@ -13,12 +13,12 @@ PacketArbiter::PacketArbiter(const sc_core::sc_module_name& name, const ArbiterS
                              std::uint32_t num_units, std::uint32_t contexts_per_unit,
                              ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_primary("in_primary"),
       in_secondary("in_secondary"),
       in_free("in_free"),
       out_packets("out_packets"),
       spec_(spec),
-      domain_(domain),
       free_contexts_(num_units, contexts_per_unit) {
   inbox_.bind(domain, domain.add(*this));
 }
@@ -33,16 +33,7 @@ void PacketArbiter::end_of_elaboration() {
   }
 }
 
-Cycles PacketArbiter::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles PacketArbiter::act(Cycles now) {
-  domain_.happened(now);
   while (in_free->has_arrived(now)) ++free_contexts_[in_free->read(now).unit];
   const bool has_primary = in_primary->has_arrived(now);
   const bool has_secondary = secondary_ != nullptr && secondary_->has_arrived(now);

@@ -26,6 +26,7 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
                              PacketPool& packets, RayCounts& rays, FlowControl& flow,
                              ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       out_packets("out_packets"),
       spec_(spec),
       image_(image),
@@ -33,8 +34,7 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
       camera_(camera),
       packets_(packets),
       rays_(rays),
-      flow_(flow),
-      domain_(domain) {
+      flow_(flow) {
   const std::size_t agent = domain.add(*this);
   inbox_.bind(domain, agent);
   flow.bind_source(inbox_);
@@ -43,14 +43,6 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
 
 void PrimarySource::end_of_elaboration() {
   out_packets->add_producer(inbox_);
-}
-
-Cycles PrimarySource::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
 }
 
 // Makes the next packet if there is one to be made now.
@@ -87,7 +79,6 @@ bool PrimarySource::prepare_packet(Cycles now) {
 }
 
 Cycles PrimarySource::act(Cycles now) {
-  domain_.happened(now);
   if (now < next_packet_) return next_packet_;
   if (!prepare_packet(now)) {
     stalls_.switch_to(flow_.source() == FlowControl::Source::kExhausted ? StallCause::kIdle

@@ -4,6 +4,7 @@
 
 #include <systemc>
 
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "config/config.h"
 #include "scene/scene.h"
@@ -29,7 +30,7 @@ std::uint32_t make_primary_packet(const Camera& camera, const ImageSpec& image,
 /// Makes camera rays, tile by tile, in packets of neighbouring pixels, one packet an interval. With
 /// tile flow control the next tile begins when all rays of the last one and all they spawned have
 /// retired; with credits a packet is made when its worst case fits.
-class PrimarySource final : public sc_core::sc_module, public Agent {
+class PrimarySource final : public sc_core::sc_module, public SteppingAgent {
  public:
   PrimarySource(const sc_core::sc_module_name& name, const PrimarySourceSpec& spec,
                 const ImageSpec& image, const TileOrder& order, const Camera& camera,
@@ -37,7 +38,6 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
 
   sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   [[nodiscard]] const PrimarySourceStats& stats() const { return stats_; }
@@ -50,7 +50,7 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   bool prepare_packet(Cycles now);
 
   const PrimarySourceSpec spec_;
@@ -60,7 +60,6 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
   PacketPool& packets_;
   RayCounts& rays_;
   FlowControl& flow_;
-  ClockDomain& domain_;
   Inbox inbox_;
   RayPacket* packet_ = nullptr;    ///< made, not yet admitted or sent
   std::uint64_t reservation_ = 0;  ///< worst case of packet_

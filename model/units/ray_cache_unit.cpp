@@ -12,13 +12,13 @@ RayCacheUnit::RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSp
                            std::unique_ptr<RaySorter> sorter, ObjectPool<SpawnBundle>& bundles,
                            FlowControl& flow, ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_bundles("in_bundles"),
       out_packets("out_packets"),
       spec_(spec),
       sorter_(std::move(sorter)),
       bundles_(bundles),
-      flow_(flow),
-      domain_(domain) {
+      flow_(flow) {
   inbox_.bind(domain, domain.add(*this));
   flow.bind_regrouper(inbox_);
 }
@@ -28,16 +28,7 @@ void RayCacheUnit::end_of_elaboration() {
   out_packets->add_producer(inbox_);
 }
 
-Cycles RayCacheUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles RayCacheUnit::act(Cycles now) {
-  domain_.happened(now);
   if (!send_departures(now)) {
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return kNever;  // woken when the FIFO has room

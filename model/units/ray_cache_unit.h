@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/object_pool.h"
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "sorting/ray_sorter.h"
 #include "sorting/spawn_bundle.h"
@@ -18,7 +19,7 @@ namespace sheaf {
 /// The ray cache: takes spawned rays in, bundle by bundle and rays_per_cycle at a time, and sends
 /// the packets that leave to the FIFO. While the FIFO is full nothing is taken in. Sweeps its cells
 /// when nothing else moves and the source has nothing to add.
-class RayCacheUnit final : public sc_core::sc_module, public Agent {
+class RayCacheUnit final : public sc_core::sc_module, public SteppingAgent {
  public:
   RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSpec& spec,
                std::unique_ptr<RaySorter> sorter, ObjectPool<SpawnBundle>& bundles,
@@ -27,7 +28,6 @@ class RayCacheUnit final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedIn<SpawnBundle*>> in_bundles;
   sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   [[nodiscard]] const RaySorter& sorter() const { return *sorter_; }
@@ -36,7 +36,7 @@ class RayCacheUnit final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   bool send_departures(Cycles now);
   bool insert_rays(Cycles now);
   bool time_out(Cycles now);
@@ -48,7 +48,6 @@ class RayCacheUnit final : public sc_core::sc_module, public Agent {
   std::unique_ptr<RaySorter> sorter_;
   ObjectPool<SpawnBundle>& bundles_;
   FlowControl& flow_;
-  ClockDomain& domain_;
   Inbox inbox_;
   SpawnBundle* bundle_ = nullptr;  ///< being taken in
   std::size_t position_ = 0;

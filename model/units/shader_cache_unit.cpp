@@ -13,12 +13,12 @@ ShaderCacheUnit::ShaderCacheUnit(const sc_core::sc_module_name& name, const Shad
                                  const Scene& scene, PacketPool& packets, FlowControl& flow,
                                  ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_packets("in_packets"),
       out_packets("out_packets"),
       spec_(spec),
       sorter_(spec, scene, packets),
-      flow_(flow),
-      domain_(domain) {
+      flow_(flow) {
   inbox_.bind(domain, domain.add(*this));
   flow.bind_shader_cache(inbox_);
 }
@@ -26,14 +26,6 @@ ShaderCacheUnit::ShaderCacheUnit(const sc_core::sc_module_name& name, const Shad
 void ShaderCacheUnit::end_of_elaboration() {
   inputs_.bind(in_packets, inbox_);
   outputs_.bind(out_packets, inbox_);
-}
-
-Cycles ShaderCacheUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
 }
 
 Cycles ShaderCacheUnit::act(Cycles now) {

@@ -108,19 +108,16 @@ void ShaderUnit::list_lines(Context& context) {
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
 }
 
-void ShaderUnit::ready(int number, Cycles now) {
+bool ShaderUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  if (context.phase == Phase::kOutput) {
-    send_output(number, now);
-  } else if (!context.issued) {
-    enqueue(number);
-  } else if (context.phase == Phase::kCompute) {
-    prepare_output(context);
-    send_output(number, now);
-  } else {
+  if (context.phase != Phase::kOutput && !context.issued) return true;
+  if (context.phase < Phase::kCompute) {
     begin_phase(number, static_cast<Phase>(static_cast<int>(context.phase) + 1));
-    enqueue(number);
+    return true;
   }
+  if (context.phase == Phase::kCompute) prepare_output(context);
+  send_output(number, now);
+  return false;
 }
 
 void ShaderUnit::issue(int number, Cycles now) {
@@ -185,6 +182,7 @@ void ShaderUnit::send_output(int number, Cycles now) {
     context.bundle = nullptr;
   }
   unblock(number);
+  look_again();
   retire(context, spawned, reserved, now);
   free_context(number);
   inbox_.set_next(std::min(inbox_.next(), std::max(packets_.next_arrival(), now + 1)));

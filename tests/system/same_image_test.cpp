@@ -60,7 +60,7 @@ std::vector<Choices> choices() {
           each("flow.tile_size", {"8", "16", "64"}),
           each("packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}),
           each("traversal.scheme", {"single", "masked", "omni"}),
-          each("run.fidelity", {"timed", "functional"})};
+          each("run.fidelity", {"timed", "decoupled", "functional"})};
 }
 
 void expect_same(const Outcome& outcome, const Outcome& first, const Settings& settings) {

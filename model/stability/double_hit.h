@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "test_mesh.h"
+#include "stability/mesh_scene.h"
 
-namespace sheaf::test {
+namespace sheaf::stability {
 
 /// One triangle and one ray in double precision.
 struct DoubleHit {
@@ -23,6 +23,6 @@ struct DoubleHit {
 /// Whether `hit` is an answer that rounding can explain: the triangle is hit, or missed by less
 /// than the error, t is right within the error, and no triangle is certainly hit before it.
 /// Ordinary rays have errors of a few ulps, and then this says that the hit is the right one.
-[[nodiscard]] bool explains(const TestScene& scene, const Ray& ray, const Hit& hit);
+[[nodiscard]] bool explains(const MeshScene& scene, const Ray& ray, const Hit& hit);
 
-}  // namespace sheaf::test
+}  // namespace sheaf::stability

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-#include "double_oracle.h"
+#include "stability/double_hit.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace sheaf::test {
+namespace sheaf::stability {
 
 DoubleHit hit_in_doubles(const TriangleRecord& triangle, const Ray& ray) {
   constexpr double kHalfUlp = 0x1p-24;
@@ -58,7 +58,7 @@ DoubleHit hit_in_doubles(const TriangleRecord& triangle, const Ray& ray) {
   return hit;
 }
 
-bool explains(const TestScene& scene, const Ray& ray, const Hit& hit) {
+bool explains(const MeshScene& scene, const Ray& ray, const Hit& hit) {
   double until = double{ray.t_max};
   if (hit.triangle != kNoHit) {
     const DoubleHit own = hit_in_doubles(scene.records[hit.triangle], ray);
@@ -73,4 +73,4 @@ bool explains(const TestScene& scene, const Ray& ray, const Hit& hit) {
   });
 }
 
-}  // namespace sheaf::test
+}  // namespace sheaf::stability

@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-#include "test_mesh.h"
+#include "stability/mesh.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <stdexcept>
-#include <utility>
 
-#include "geometry/watertight.h"
-#include "kdtree/build.h"
-
-namespace sheaf::test {
+namespace sheaf::stability {
 
 void Mesh::add(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto first = static_cast<std::uint32_t>(positions.size());
@@ -94,11 +88,66 @@ Mesh lattice(int n) {
   return mesh;
 }
 
-TestScene::TestScene(Mesh source)
-    : mesh(std::move(source)), tree(build_kd_tree(mesh.positions, mesh.triangles)) {
-  for (const auto& t : mesh.triangles) {
-    records.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
+Mesh grid_cube(int cells) {
+  Mesh mesh;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      for (const int side : {0, cells}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          Vec3 at(0.0F);
+          Vec3 u(0.0F);
+          Vec3 v(0.0F);
+          at[axis] = static_cast<float>(side);
+          at[(axis + 1) % 3] = static_cast<float>(i);
+          at[(axis + 2) % 3] = static_cast<float>(j);
+          u[(axis + 1) % 3] = 1.0F;
+          v[(axis + 2) % 3] = 1.0F;
+          mesh.add_quad(at, u, v);
+        }
+      }
+    }
   }
+  return mesh;
+}
+
+Mesh spindle(int sectors, float aspect) {
+  Mesh mesh;
+  const float height = 0.5F * aspect;
+  mesh.positions = {Vec3(0.0F, height, 0.0F), Vec3(0.0F, -height, 0.0F)};
+  const double radius = 0.5 / std::sin(std::numbers::pi / sectors);
+  for (int i = 0; i < sectors; ++i) {
+    const double phi = 2.0 * std::numbers::pi * i / sectors;
+    mesh.positions.emplace_back(radius * std::cos(phi), 0.0, radius * std::sin(phi));
+  }
+  for (int i = 0; i < sectors; ++i) {
+    const auto here = static_cast<std::uint32_t>(2 + i);
+    const auto next = static_cast<std::uint32_t>(2 + (i + 1) % sectors);
+    mesh.triangles.push_back({0, next, here});
+    mesh.triangles.push_back({1, here, next});
+  }
+  return mesh;
+}
+
+Mesh teapot_in_stadium(float size, float reach) {
+  Mesh mesh = bumpy_sphere(24, 32, 0.1F);
+  mesh.transform(size, Vec3(0.0F, 1.2F * size, 0.0F));
+  mesh.add_quad(Vec3(-reach, 0.0F, -reach), Vec3(0.0F, 0.0F, 2.0F * reach),
+                Vec3(2.0F * reach, 0.0F, 0.0F));
+  // Stands that rise outwards on all four sides.
+  const float rise = 0.3F * reach;
+  for (int side = 0; side < 4; ++side) {
+    const auto turned = [&](float x, float y, float z) {
+      for (int i = 0; i < side; ++i) {
+        const float was = x;
+        x = -z;
+        z = was;
+      }
+      return Vec3(x, y, z);
+    };
+    mesh.add_quad(turned(reach, 0.0F, -reach), turned(0.0F, 0.0F, 2.0F * reach),
+                  turned(0.5F * reach, rise, 0.0F));
+  }
+  return mesh;
 }
 
 Vec3 random_point(Random& random) {
@@ -115,68 +164,4 @@ Vec3 random_direction(Random& random) {
   }
 }
 
-Ray make_ray(const Vec3& origin, const Vec3& direction) {
-  Ray ray;
-  ray.origin = origin;
-  ray.direction = direction;
-  ray.t_max = std::numeric_limits<float>::infinity();
-  return ray;
-}
-
-Ray random_ray(Random& random, const Box& bounds) {
-  const Vec3 origin = bounds.lo + bounds.extent() * (1.2F * random_point(random) - Vec3(0.1F));
-  return make_ray(origin, random_direction(random));
-}
-
-RayPacket random_packet(Random& random, int size, const TestScene& scene) {
-  RayPacket packet;
-  packet.clear(size);
-  const std::uint64_t filled = random.below(4) == 0 ? random.next() : ~std::uint64_t{0};
-  const bool coherent = random.below(2) == 0;
-  const Ray base = random_ray(random, scene.tree.bounds);
-  for (int lane = 0; lane < size; ++lane) {
-    Ray ray = random_ray(random, scene.tree.bounds);
-    if (coherent) {
-      ray.origin = base.origin;
-      ray.direction = glm::normalize(base.direction + 0.1F * ray.direction);
-    }
-    if (random.below(3) == 0) {
-      ray.tag.kind = RayKind::kShadow;
-      ray.t_max = random.uniform();
-    }
-    if ((filled >> lane & 1U) != 0) packet.put(lane, ray);
-  }
-  return packet;
-}
-
-Hit trace_one(const TestScene& scene, const Ray& ray, TraversalScheme scheme) {
-  const std::size_t lanes = scheme == TraversalScheme::kSingle ? 1 : 2;
-  RayPacket packet;
-  packet.clear(static_cast<int>(lanes));
-  for (std::size_t lane = 0; lane < lanes; ++lane) packet.put(static_cast<int>(lane), ray);
-  TraceCounts counts;
-  trace_packet(scheme, scene.tree, scene.records, packet, nullptr, nullptr, counts);
-  std::array<Hit, 2> hits;
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    if (packet.hit_triangle[lane] != kNoHit) {
-      hits[lane] = {packet.hit_triangle[lane], packet.hit_t[lane]};
-    }
-  }
-  if (lanes == 2 && hits[0] != hits[1]) throw std::logic_error("equal rays fare differently");
-  return hits[0];
-}
-
-Hit test_all(const TestScene& scene, const Ray& ray) {
-  const ShearedRay sheared(ray.origin, ray.direction);
-  Hit best{kNoHit, ray.t_max};
-  for (std::uint32_t i = 0; i < scene.records.size(); ++i) {
-    TriangleHit hit;
-    if (!hit_sheared(sheared.shear(&scene.records[i].a.x), hit)) continue;
-    if (hit.t >= 0.0F && (hit.t < best.t || (hit.t == best.t && i < best.triangle))) {
-      best = {i, hit.t};
-    }
-  }
-  return best.triangle == kNoHit ? Hit{} : best;
-}
-
-}  // namespace sheaf::test
+}  // namespace sheaf::stability
