@@ -76,6 +76,7 @@ void check_cache(const std::string& name, const Spec& spec) {
 }
 
 void check_private_cache(const std::string& name, const CacheSpec& spec, const L2Spec& l2) {
+  check_power_of_two(name + ".line", spec.line, format_bytes(spec.line));
   if (spec.mode == CacheMode::kPerfect) return;
   check_cache(name, spec);
   if (l2.mode == CacheMode::kNormal && spec.line > l2.line) {
@@ -133,6 +134,38 @@ void check_view(const Config& c) {
   }
 }
 
+// Ends of the keys whose defaults are all that `clocked` models.
+constexpr std::array<std::string_view, 11> kNotClocked{".replacement",
+                                                       ".sectors",
+                                                       ".mshr_targets",
+                                                       "_cache.banks",
+                                                       ".ports",
+                                                       ".write_policy",
+                                                       ".write_allocate",
+                                                       ".write_buffer",
+                                                       "crossbar.request_width",
+                                                       "crossbar.depth",
+                                                       "crossbar.response_width"};
+
+void check_clocked(const Config& c) {
+  if (c.run.fidelity != Fidelity::kClocked) return;
+  Config defaults;
+  static_cast<void>(declare_parameters(defaults));
+  for (const std::string& key : changed_keys(defaults, c)) {
+    const auto ends_key = [&](std::string_view end) { return key.ends_with(end); };
+    if (std::ranges::none_of(kNotClocked, ends_key)) continue;
+    refuse(
+        fmt::format("{}: run.fidelity = clocked models its default only; leave it, or set "
+                    "run.fidelity = timed",
+                    key));
+  }
+  if (c.flow.control == FlowPolicy::kSpill) {
+    refuse(
+        "flow.control = spill: run.fidelity = clocked does not model it; set run.fidelity = "
+        "timed");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> heat_map_names(const ImageSpec& image) {
@@ -168,6 +201,7 @@ void check_config(const Config& config) {
   check_memory(config);
   check_flow(config);
   check_view(config);
+  check_clocked(config);
   static_cast<void>(heat_map_names(config.image));
 }
 

@@ -195,8 +195,7 @@ void ClockedMachine::connect_shaders() {
   }
 }
 
-// Their order matters only for what units share without a link: flow control's counters, of which
-// the source sees those of the cycle before, and the order in which several write to one link.
+// Their order matters only where several write into one link in the same cycle.
 void ClockedMachine::list_units() {
   units_ = {primary_source_.get(), packet_arbiter_.get()};
   for (const auto& unit : traversal_units_) units_.push_back(unit.get());

@@ -50,7 +50,7 @@ Cycles FilmUnit::act(Cycles now) {
   const Cycles next = std::min(next_line, in_batches->next_arrival());
   if (flow_.finished(now) && next == kNever && !cache_.has_pending()) return flush_next(now);
   stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
-  return next;
+  return std::min(next, flow_.next_notice(now));
 }
 
 void FilmUnit::accept_lines(Cycles now) {

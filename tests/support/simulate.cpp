@@ -71,10 +71,10 @@ Outcome run_here(const Config& config, const PreparedScene& scene, bool in_step)
       switch (config.run.fidelity) {
         case Fidelity::kFunctional:
           return simulate<FunctionalPipeline>(config, plan, scene, frame, in_step, stats);
-        case Fidelity::kTimed:
-          break;
         case Fidelity::kClocked:
           return simulate<ClockedMachine>(config, plan, scene, frame, in_step, stats);
+        default:
+          break;
       }
       return simulate<Machine>(config, plan, scene, frame, in_step, stats);
     };

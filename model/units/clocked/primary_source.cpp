@@ -23,7 +23,7 @@ StallCause PrimarySource::act(Cycles now) {
   if (packet_ == nullptr && !prepare_packet(now)) {
     return order_.is_done() ? StallCause::kIdle : StallCause::kWaitingInput;
   }
-  if (!flow_.admits(reservation_)) {
+  if (!flow_.admits(reservation_, now)) {
     flow_.set_source(FlowControl::Source::kNoCredit, now);
     return StallCause::kBlockedOutput;
   }
@@ -54,7 +54,7 @@ bool PrimarySource::prepare_packet(Cycles now) {
     tile_begun_ = true;
     if (order_.next_run(run)) break;
     const bool last = order_.tile_index() + 1 == order_.num_tiles();
-    if (flow_.by_tile() && flow_.live() != 0 && !last) {
+    if (flow_.by_tile() && flow_.live(now) != 0 && !last) {
       flow_.set_source(FlowControl::Source::kTileIssued, now);
       return false;
     }

@@ -121,5 +121,32 @@ TEST(CheckConfig, HeatMapsAreKnownCountersNamedOnce) {
             "image.heat_maps: 'rays' stands there twice");
 }
 
+TEST(CheckConfig, PerfectCachesHaveLinesTheyCountToo) {
+  EXPECT_EQ(verdict([](Config& c) {
+              c.node_cache.mode = CacheMode::kPerfect;
+              c.node_cache.line = 48;
+            }),
+            "node_cache.line = 48B must be a power of two");
+}
+
+TEST(CheckConfig, ClockedRefusesWhatItDoesNotModel) {
+  const auto clocked = [](const std::function<void(Config&)>& change) {
+    return verdict([&](Config& c) {
+      c.run.fidelity = Fidelity::kClocked;
+      change(c);
+    });
+  };
+  EXPECT_EQ(clocked([](Config& c) { c.l2.banks = 8; }), "");
+  EXPECT_EQ(clocked([](Config& c) { c.l2.replacement = Replacement::kFifo; }),
+            "l2.replacement: run.fidelity = clocked models its default only; leave it, or set "
+            "run.fidelity = timed");
+  EXPECT_EQ(clocked([](Config& c) { c.node_cache.banks = 2; }),
+            "node_cache.banks: run.fidelity = clocked models its default only; leave it, or set "
+            "run.fidelity = timed");
+  EXPECT_EQ(clocked([](Config& c) { c.flow.control = FlowPolicy::kSpill; }),
+            "flow.control = spill: run.fidelity = clocked does not model it; set run.fidelity = "
+            "timed");
+}
+
 }  // namespace
 }  // namespace sheaf
