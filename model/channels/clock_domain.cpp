@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channels/clock_domain.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/errors.h"
+
 namespace sheaf {
 namespace {
 
@@ -29,9 +35,19 @@ void Lookahead::bind(const ClockDomain& domain, const std::vector<std::size_t>& 
 }
 
 ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
-    : sc_module(name), period_(period) {
+    : sc_module(name),
+      period_(period),
+      last_cycle_(std::numeric_limits<sc_dt::uint64>::max() / period.value()) {
   SC_HAS_PROCESS(ClockDomain);
   SC_METHOD(advance);
+}
+
+void ClockDomain::refuse_time(Cycles now) const {
+  throw Error(ExitCode::kUsage,
+              fmt::format("clock.frequency = {:.3g} Hz: cycle {} lies beyond the {:.3g} s that "
+                          "simulated time can reach; choose a faster clock",
+                          1.0 / period_.to_seconds(), now,
+                          static_cast<double>(last_cycle_) * period_.to_seconds()));
 }
 
 std::size_t ClockDomain::add(Agent& agent) {

@@ -91,8 +91,10 @@ class ClockDomain : public sc_core::sc_module {
 
   [[nodiscard]] const sc_core::sc_time& period() const { return period_; }
   /// The local time offset to pass along a TLM call made at cycle `now`.
+  /// Throws Error(kUsage) beyond what SystemC's 64 bits can say.
   [[nodiscard]] sc_core::sc_time offset(Cycles now) const {
-    return period_ * static_cast<double>(now - kernel_cycle_);
+    if (now > last_cycle_) refuse_time(now);
+    return sc_core::sc_time::from_value((now - kernel_cycle_) * period_.value());
   }
   /// The inverse: the cycle that lies `offset` after the time at which this domain was entered,
   /// rounded up.
@@ -119,6 +121,7 @@ class ClockDomain : public sc_core::sc_module {
   [[nodiscard]] std::uint64_t num_wakes() const { return num_wakes_; }
 
  private:
+  [[noreturn]] void refuse_time(Cycles now) const;
   void advance();
   void run_until(Cycles limit);
   void show(Cycles cycle);
@@ -127,6 +130,7 @@ class ClockDomain : public sc_core::sc_module {
   [[nodiscard]] Cycles next_foreign_cycle() const;
 
   const sc_core::sc_time period_;
+  const Cycles last_cycle_;  ///< that SystemC's time can reach
   Calendar calendar_;
   LinkMap links_;
   std::vector<Agent*> agents_;

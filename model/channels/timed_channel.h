@@ -129,6 +129,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   T read(Cycles now) {
     if (spec_.capacity != kUnbounded || size_ > max_size_) note_occupancy(now);
     const T value = ring_[head_].value;
+    occupancy_cycles_ += now - ring_[head_].ready;
     last_arrival_ = this->next_arrival_;
     head_ = (head_ + 1) & (ring_.size() - 1);
     --size_;
@@ -159,6 +160,9 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   /// held, since their number only grows between two reads.
   [[nodiscard]] std::size_t max_size() const { return max_size_; }
   [[nodiscard]] std::uint64_t num_written() const { return num_written_; }
+  /// Values held, summed over all cycles: as well the time from writing to reading, summed over
+  /// values.
+  [[nodiscard]] Cycles occupancy_cycles() const { return occupancy_cycles_; }
   [[nodiscard]] const Spec& spec() const { return spec_; }
 
  private:
@@ -253,6 +257,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   std::size_t num_returning_ = 0;
   Cycles last_arrival_ = kNever;  ///< of the value read last
   std::uint64_t num_written_ = 0;
+  Cycles occupancy_cycles_ = 0;
 };
 
 }  // namespace sheaf

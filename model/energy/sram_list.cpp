@@ -20,7 +20,9 @@ std::uint64_t floor_log2(std::uint64_t x) {
   return static_cast<std::uint64_t>(std::bit_width(x)) - 1;
 }
 
+// Of them those that wait before the ray cache, of whom all may.
 std::uint64_t rays_in_loop(const Config& config, std::uint32_t lights, std::uint32_t branches) {
+  if (config.flow.control == FlowPolicy::kSpill) return config.flow.spill_queue;
   const std::uint64_t one_ray = WorstCase(config.render.recursion_level, lights, branches).of({});
   const std::uint64_t side = config.flow.tile_size;
   if (config.flow.control == FlowPolicy::kTile) return one_ray * side * side;
@@ -37,14 +39,14 @@ std::uint64_t packets_in_store(const Config& config, const BuildPlan& plan) {
          config.link.depth * (1 + to_shaders);
 }
 
-// Data and tags with a valid and a dirty bit; `lines` = sets x ways of all banks.
-std::uint64_t cache_bits(Bytes capacity, Bytes line, std::uint64_t ways,
-                         std::uint64_t address_bits) {
-  const std::uint64_t lines = capacity / line;
-  const std::uint64_t index =
-      floor_log2(line) + floor_log2(std::max<std::uint64_t>(1, lines / ways));
+// Data and tags, with a valid and a dirty bit a sector.
+template <typename Spec>
+std::uint64_t cache_bits(const Spec& spec, std::uint64_t address_bits) {
+  const std::uint64_t lines = spec.capacity / spec.line;
+  const std::uint64_t sets = std::max<std::uint64_t>(1, lines / spec.ways);  // of all banks
+  const std::uint64_t index = floor_log2(spec.line) + floor_log2(sets);
   const std::uint64_t tag = address_bits > index ? address_bits - index : 0;
-  return 8 * capacity + lines * (tag + 2);
+  return 8 * spec.capacity + lines * (tag + 2 * std::uint64_t{spec.sectors});
 }
 
 class List {
@@ -58,10 +60,7 @@ class List {
     shader();
     if (plan_.secondary_rays) regrouper();
     cache("film_cache", 1, c_.film_cache);
-    if (c_.l2.mode == CacheMode::kNormal) {
-      add("l2", 1, cache_bits(c_.l2.capacity, c_.l2.line, c_.l2.ways, sizes_.address_bits),
-          c_.l2.banks);
-    }
+    cache("l2", 1, c_.l2);
     add("packet_store", 1, sizes_.packets_in_store * n_ * (sizes_.ray_bits + sizes_.hit_bits), n_);
     return list_;
   }
@@ -71,10 +70,11 @@ class List {
            std::uint64_t banks = 1) {
     list_.push_back({name, count, bits, banks});
   }
-  void cache(std::string_view name, std::uint64_t count, const CacheSpec& spec) {
+  template <typename Spec>
+  void cache(std::string_view name, std::uint64_t count, const Spec& spec) {
     if (spec.mode == CacheMode::kAbsent) return;
     if (spec.mode == CacheMode::kPerfect) return add(name, count, {});
-    add(name, count, cache_bits(spec.capacity, spec.line, spec.ways, sizes_.address_bits));
+    add(name, count, cache_bits(spec, sizes_.address_bits), spec.banks);
   }
   [[nodiscard]] std::uint64_t lanes(const UnitSpec& unit) const {
     return std::min<std::uint64_t>(unit.lanes, n_);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,24 @@ namespace sheaf {
 namespace {
 
 constexpr std::string_view kPrefix = "energy.";
+
+constexpr std::size_t kWidth = 78;
+
+/// A list with commas, on as many indented lines as it needs.
+std::string wrapped(const std::string& list) {
+  std::string text;
+  std::string line = " ";
+  for (std::size_t at = 0; at < list.size();) {
+    const std::size_t end = std::min(list.find(' ', at), list.size());
+    if (line.size() + 1 + end - at > kWidth) {
+      text += line + '\n';
+      line = "   ";
+    }
+    line += ' ' + list.substr(at, end - at);
+    at = end + 1;
+  }
+  return text + line + '\n';
+}
 
 class EnergySummary {
  public:
@@ -86,8 +105,8 @@ class EnergySummary {
     table.add_row({"SRAM", grouped(*count("area.sram_bits")),
                    fmt::format("bits, {:.4g} mm2", *real("area.sram_mm2"))});
     text_ += table.text(2);
-    text_ += fmt::format("  unknown: {}\n  no area of: {}\n", words("energy.unknown"),
-                         words("area.unknown"));
+    text_ += wrapped("unknown: " + words("energy.unknown"));
+    text_ += wrapped("no area of: " + words("area.unknown"));
   }
 
   // What one run can tell: the price, and how often a packet stood for several of its rays. What

@@ -9,7 +9,8 @@ namespace sheaf::stability {
 
 std::vector<StabilityCase> catalogue() {
   std::vector<StabilityCase> all;
-  for (const auto& group : {ray_cases, leak_cases}) {
+  for (const auto& group : {ray_cases, leak_cases, secondary_cases, light_cases, sum_cases,
+                            machine_cases, input_cases}) {
     std::ranges::move(group(), std::back_inserter(all));
   }
   return all;

@@ -48,6 +48,17 @@ struct StabilityCase {
 // One function a group; catalogue() puts them together.
 [[nodiscard]] std::vector<StabilityCase> ray_cases();
 [[nodiscard]] std::vector<StabilityCase> leak_cases();
+[[nodiscard]] std::vector<StabilityCase> secondary_cases();
+[[nodiscard]] std::vector<StabilityCase> light_cases();
+[[nodiscard]] std::vector<StabilityCase> sum_cases();
+[[nodiscard]] std::vector<StabilityCase> machine_cases();
+[[nodiscard]] std::vector<StabilityCase> input_cases();
+
+/// γ(n) = n u / (1 - n u) for floats, u = 2^-24: how far n roundings can take a product or a sum
+/// relatively (Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., lemma 3.1).
+[[nodiscard]] constexpr double gamma(double n) {
+  return n * 0x1p-24 / (1.0 - n * 0x1p-24);
+}
 
 /// Counts what goes wrong and remembers where it did first.
 class Failures {

@@ -9,7 +9,7 @@
 
 #include "stability/catalogue.h"
 #include "stability/double_hit.h"
-#include "stability/exact_hit.h"
+#include "stability/exact.h"
 #include "stability/ray_scenes.h"
 
 namespace sheaf::stability {

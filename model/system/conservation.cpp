@@ -22,6 +22,8 @@ void require_equal(std::uint64_t a, std::uint64_t b, const std::string& law) {
 void check_cache(const std::string& name, const CacheStats& stats) {
   require_equal(stats.num_accesses, stats.num_hits + stats.num_misses + stats.num_merges,
                 name + ": accesses = hits + misses + merges");
+  require_equal(stats.mshr_occupancy_cycles, stats.sum_miss_latency,
+                name + ": mean MSHRs in use = misses per cycle x mean latency");
 }
 
 void check_sorter(const RayCacheStats& stats) {
@@ -40,6 +42,18 @@ void check_shading_sorter(const ShaderCacheStats& stats) {
   require_equal(stats.num_insertions,
                 stats.num_rays_full + stats.num_rays_evicted + stats.num_rays_swept,
                 "shader cache: rays in = rays out");
+}
+
+void check_spill(const SpillUnit& spill) {
+  const SpillStats& stats = spill.stats();
+  require(spill.is_idle(), "no ray in the spill unit or its memory at the end");
+  require_equal(stats.num_rays, stats.num_rays_kept + stats.num_rays_spilled,
+                "spill: rays in = kept + spilled");
+  require_equal(stats.num_rays_spilled, stats.num_rays_returned,
+                "spill: rays spilled = rays returned");
+  require_equal(stats.num_lines_written, stats.num_lines_read, "spill: lines written = lines read");
+  require_equal(stats.queue_occupancy_cycles, stats.sum_queue_residence,
+                "spill: mean occupancy = throughput x mean residence");
 }
 
 template <typename Unit>
@@ -89,6 +103,12 @@ void MachineParts<Kind>::check_conservation() const {
   check_stalls("packet_arbiter", *packet_arbiter_, end_);
   if (ray_cache_) check_stalls("ray_cache", *ray_cache_, end_);
   if (spawn_router_) check_stalls("spawn_router", *spawn_router_, end_);
+  if (spill_) {
+    check_spill(*spill_);
+    check_stalls("spill", *spill_, end_);
+    fetched += spill_->stats().num_lines_read * spill_->line();
+    written += spill_->stats().num_lines_written * spill_->line();
+  }
 
   const L2Stats& l2 = l2_->stats();
   const DramStats dram = dram_->stats(end_);
@@ -96,6 +116,10 @@ void MachineParts<Kind>::check_conservation() const {
                 "l2: accesses = hits + misses + merges");
   require_equal(fetched, l2.bytes_requested, "bytes into the private caches = bytes out of the l2");
   require_equal(written, l2.bytes_received, "bytes out of the private caches = bytes into the l2");
+  require_equal(l2.queue_occupancy_cycles, l2.bank_wait_cycles,
+                "l2: mean occupancy of its queues = throughput x mean wait");
+  require_equal(l2.mshr_occupancy_cycles, l2.sum_miss_latency,
+                "l2: mean MSHRs in use = misses per cycle x mean latency");
   require_equal(l2.bytes_read, dram.bytes_read, "bytes into the l2 = bytes out of dram");
   require_equal(l2.bytes_written, dram.bytes_written, "bytes out of the l2 = bytes into dram");
 }

@@ -53,7 +53,7 @@ void Machine::build_memory() {
       "caches_to_l2",
       TimedChannel<LineRequest>::Spec{
           .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
-  l2_ = std::make_unique<L2Cache>("l2", config_.l2, domain_);
+  l2_ = std::make_unique<L2Cache>("l2", config_.l2, config_.crossbar, domain_);
   if (config_.dram.model == DramModel::kFixed) {
     dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
   } else {
@@ -70,7 +70,8 @@ void Machine::build_memory() {
 std::uint16_t Machine::add_requester(const CacheSpec& cache) {
   auto& links = links_.l2_to_caches;
   const auto number = static_cast<std::uint16_t>(links.size());
-  const Cycles transfer = (cache.line + config_.link.memory_width - 1) / config_.link.memory_width;
+  const Cycles transfer =
+      (cache.line / cache.sectors + config_.link.memory_width - 1) / config_.link.memory_width;
   links.push_back(std::make_unique<TimedChannel<LineResponse>>(
       fmt::format("l2_to_cache_{}", number).c_str(),
       TimedChannel<LineResponse>::Spec{
@@ -144,19 +145,42 @@ void Machine::build_regrouper() {
                                      (plan_.ray_cache ? config_.ray_cache.latency : 0)});
   links_.spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
       "spawned_rays",
-      TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
+      TimedChannel<SpawnBundle*>::Spec{
+          .capacity = config_.flow.control == FlowPolicy::kSpill ? config_.link.depth : kNeverFull,
+          .latency = config_.link.latency});
+  if (config_.flow.control == FlowPolicy::kSpill) build_spill();
+  auto& bundles = links_.spill_to_regrouper ? *links_.spill_to_regrouper : *links_.spawned_rays;
   if (plan_.ray_cache) {
     const SorterOptions options = sorter_options(config_, plan_, scene_.scene.bounds);
     ray_cache_ = std::make_unique<RayCacheUnit>("ray_cache", config_.ray_cache,
                                                 make_sorter(options, scene_.scene.bounds, packets_),
                                                 bundles_, flow_, domain_);
-    ray_cache_->in_bundles(*links_.spawned_rays);
+    ray_cache_->in_bundles(bundles);
     ray_cache_->out_packets(*links_.packet_fifo);
   } else {
     spawn_router_ = std::make_unique<SpawnRouter>("spawn_router", packets_, bundles_, domain_);
-    spawn_router_->in_bundles(*links_.spawned_rays);
+    spawn_router_->in_bundles(bundles);
     spawn_router_->out_packets(*links_.packet_fifo);
   }
+}
+
+// The queue that spills stands right before whoever takes the rays in.
+void Machine::build_spill() {
+  links_.spill_to_regrouper = std::make_unique<TimedChannel<SpawnBundle*>>(
+      "spill_to_regrouper", TimedChannel<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
+  CacheSpec line;
+  line.line = config_.l2.line / config_.l2.sectors;
+  const std::uint16_t requester = add_requester(line);
+  spill_ = std::make_unique<SpillUnit>(
+      "spill",
+      SpillUnit::Spec{.queue = config_.flow.spill_queue,
+                      .line = line.line,
+                      .base = scene_.memory.region(DataKind::kSpilledRay).base,
+                      .requester = requester},
+      *links_.caches_to_l2, domain_);
+  spill_->in_bundles(*links_.spawned_rays);
+  spill_->out_bundles(*links_.spill_to_regrouper);
+  spill_->in_lines(*links_.l2_to_caches.back());
 }
 
 void Machine::connect() {
@@ -249,7 +273,7 @@ bool Machine::run(const Monitor& monitor) {
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
   const bool cut = !domain_.ran_dry() && !domain_.stopped();
-  end_ = cut ? domain_.end() : domain_.latest() + 1;
+  end_ = cut ? config_.run.max_cycles : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
   num_wakes_ = domain_.num_wakes();
   for (MachineObserver* observer : observers_) observer->finish(end_);
@@ -279,6 +303,7 @@ std::string Machine::describe_stuck() const {
   add(packet_arbiter_.get());
   add(ray_cache_.get());
   add(spawn_router_.get());
+  add(spill_.get());
   add(film_.get());
   add(l2_.get());
   if (links_.packet_fifo && links_.packet_fifo->size() != 0) {

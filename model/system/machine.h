@@ -19,6 +19,7 @@
 #include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -67,6 +68,7 @@ class Machine : public MachineParts<TimedKind> {
   void build_memory();
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void connect_shader_cache();

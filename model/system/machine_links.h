@@ -29,6 +29,7 @@ struct MachineLinks {
   Channels<RayPacket*> shader_cache_to_shader;     ///< one per shader unit
   std::unique_ptr<Link<FilmBatch*>> shader_to_film;
   std::unique_ptr<Link<SpawnBundle*>> spawned_rays;
+  std::unique_ptr<Link<SpawnBundle*>> spill_to_regrouper;  ///< only with a spill unit
   std::unique_ptr<Link<LineRequest>> caches_to_l2;
   Channels<LineResponse> l2_to_caches;  ///< one per requester
 
@@ -52,6 +53,7 @@ struct MachineLinks {
     all(shader_cache_to_shader);
     one(shader_to_film);
     one(spawned_rays);
+    one(spill_to_regrouper);
     one(caches_to_l2);
     all(l2_to_caches);
   }

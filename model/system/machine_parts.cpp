@@ -34,6 +34,7 @@ void MachineParts<Kind>::finish_accounts(Cycles end) {
   if (shader_cache_) shader_cache_->finish(end);
   if (ray_cache_) ray_cache_->finish(end);
   if (spawn_router_) spawn_router_->finish(end);
+  if (spill_) spill_->finish(end);
 }
 
 template class MachineParts<TimedKind>;

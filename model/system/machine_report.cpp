@@ -42,6 +42,12 @@ void MachineParts<Kind>::report_units(StatsTree& stats) const {
     stats.add_counters("system.spawn_router", spawn_router_->stats());
     unit("system.spawn_router", *spawn_router_);
   }
+  if (spill_) {
+    stats.add_counters("system.spill", spill_->stats());
+    stats.add_ratio("system.spill", SpillValues::mean_spill_latency,
+                    spill_->stats().sum_spill_latency, spill_->stats().num_bundles_spilled);
+    unit("system.spill", *spill_);
+  }
   TraceCounts primary;
   TraceCounts secondary;
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
@@ -76,6 +82,9 @@ void MachineParts<Kind>::report_links(StatsTree& stats) const {
   const auto link = [&](const std::string& path, const auto& channel) {
     stats.add(path, LinkValues::num_written, channel.num_written());
     stats.add(path, LinkValues::max_occupancy, channel.max_size());
+    stats.add(path, LinkValues::occupancy_cycles, channel.occupancy_cycles());
+    stats.add_ratio(path, LinkValues::mean_residence, channel.occupancy_cycles(),
+                    channel.num_written());
   };
   link("system.link.source_to_arbiter", *links_.source_to_arbiter);
   if (links_.packet_fifo) link("system.packet_fifo", *links_.packet_fifo);
@@ -124,7 +133,16 @@ void MachineParts<Kind>::report_memory(StatsTree& stats) const {
   stats.add_counters("system.l2", l2_->stats());
   stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
                   l2_->stats().num_accesses);
+  if constexpr (requires { l2_->request_crossbar(); }) {  // clocked has none
+    if (l2_->request_crossbar()) {
+      stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
+    }
+    if (l2_->response_crossbar()) {
+      stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
+    }
+  }
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
+    if (static_cast<DataKind>(kind) == DataKind::kSpilledRay && !spill_) continue;
     const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
     stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
   }

@@ -19,6 +19,7 @@
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -117,6 +118,8 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"system.ray_cache.fill", "Rays in a packet that left the ray cache",
                    kHistogramInfos},
       CounterGroup{"system.spawn_router", "Only for the heuristic none", SpawnRouterStats::infos()},
+      CounterGroup{"system.spill", "Only with flow.control = spill", SpillStats::infos()},
+      CounterGroup{"system.spill", "Formulas of these", SpillValues::infos()},
       CounterGroup{"system.shader_cache", "Only with shader_cache.cells",
                    ShaderCacheStats::infos()},
       CounterGroup{"system.shader_cache", "Formulas of these", ShadingSorterValues::infos()},
@@ -137,6 +140,10 @@ std::span<const CounterGroup> counter_groups() {
                    CacheValues::infos()},
       CounterGroup{"system.<unit><n>.<cache>.<kind of data>, system.film.cache.<kind of data>",
                    "The same by kind of data", CacheKindStats::infos()},
+      CounterGroup{"system.crossbar.requests", "Only with crossbar.request_width",
+                   RequestCrossbarStats::infos()},
+      CounterGroup{"system.crossbar.responses", "Only with crossbar.response_width",
+                   ResponseCrossbarStats::infos()},
       CounterGroup{"system.l2", "Shared second-level cache", L2Stats::infos()},
       CounterGroup{"system.l2.<kind of data>", "The same by kind of data", L2KindStats::infos()},
       CounterGroup{"system.dram", "Memory behind the TLM socket", DramStats::infos()},

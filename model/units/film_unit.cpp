@@ -35,12 +35,12 @@ Cycles FilmUnit::act(Cycles now) {
   if (batch_ == nullptr && in_batches->has_arrived(now)) {
     batch_ = in_batches->read(now);
     position_ = 0;
-    next_line_ = 0;
+    bytes_asked_for_ = 0;
     ++stats_.num_batches;
   }
   const Cycles next_line = in_lines->next_arrival();
   if (batch_ != nullptr) {
-    if (waits_for_mshr_ || !add_next(now)) {
+    if (waits_for_room_ || !add_next(now)) {
       stalls_.switch_to(StallCause::kWaitingMemory, now);
       return next_line;
     }
@@ -48,7 +48,8 @@ Cycles FilmUnit::act(Cycles now) {
     return now + 1;
   }
   const Cycles next = std::min(next_line, in_batches->next_arrival());
-  if (flow_.finished(now) && next == kNever && !cache_.has_pending()) return flush_next(now);
+  const bool finished = flow_.finished(now) && next == kNever && !cache_.has_pending();
+  if (flushing_ || finished) return flush_next(now);
   stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
   return std::min(next, flow_.next_notice(now));
 }
@@ -57,23 +58,25 @@ void FilmUnit::accept_lines(Cycles now) {
   while (in_lines->has_arrived(now)) {
     std::uint64_t retry = 0;
     cache_.fill(in_lines->read(now), now, retry);
-    if (retry != 0) waits_for_mshr_ = false;
+    if (retry != 0) waits_for_room_ = false;
   }
 }
 
-// False if there is no free MSHR; the lines asked for so far are not asked for again.
+// False if the cache has no room for it; the lines asked for so far are not asked for again.
 bool FilmUnit::add_next(Cycles now) {
   const PixelContribution& contribution = (*batch_)[position_];
   const Address first = memory_.pixel(contribution.pixel);
-  const std::uint64_t last_line = cache_.line_of(first + film_.bytes_per_pixel() - 1);
-  if (next_line_ == 0) next_line_ = cache_.line_of(first);
-  for (; next_line_ <= last_line; ++next_line_) {
-    if (cache_.modify(next_line_, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
-      waits_for_mshr_ = true;
+  const Address end = first + film_.bytes_per_pixel();
+  const Bytes line = cache_.line_size();
+  for (Address at = first + bytes_asked_for_; at != end; at = first + bytes_asked_for_) {
+    const Bytes bytes = std::min(end, (cache_.line_of(at) + 1) * line) - at;
+    if (cache_.modify(at, bytes, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
+      waits_for_room_ = true;
       return false;
     }
+    bytes_asked_for_ += bytes;
   }
-  next_line_ = 0;
+  bytes_asked_for_ = 0;
   film_.add(contribution.pixel, contribution.radiance);
   ++stats_.num_contributions;
   if (++position_ == batch_->size()) {
@@ -90,8 +93,12 @@ Cycles FilmUnit::flush_next(Cycles now) {
     dirty_lines_ = cache_.take_dirty_lines();
   }
   if (dirty_lines_.empty()) {
-    stalls_.switch_to(StallCause::kIdle, now);
-    return kNever;
+    stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
+    return in_lines->next_arrival();
+  }
+  if (!cache_.can_write()) {
+    stalls_.switch_to(StallCause::kWaitingMemory, now);
+    return in_lines->next_arrival();
   }
   cache_.write_back(dirty_lines_.back(), now);
   dirty_lines_.pop_back();
@@ -102,7 +109,7 @@ Cycles FilmUnit::flush_next(Cycles now) {
 std::string FilmUnit::stuck_reason() const {
   if (batch_ == nullptr && !cache_.has_pending()) return {};
   return fmt::format("{}: {}", name(),
-                     waits_for_mshr_ ? "waits for a free MSHR" : "waits for memory");
+                     waits_for_room_ ? "waits for room in its cache" : "waits for memory");
 }
 
 }  // namespace sheaf

@@ -24,8 +24,8 @@ SHEAF_STATS(FilmStats, SHEAF_FILM_COUNTERS);
 
 /// Adds contributions to the frame buffer, one a cycle, in order of arrival, through a write-back
 /// cache. An addition whose line is on its way waits in that line's MSHR, so that only a lack of
-/// MSHRs holds the unit up. When the last ray has retired, the dirty lines are written back, one a
-/// cycle.
+/// MSHRs, or of room for writes, holds the unit up. When the last ray has retired, the dirty lines
+/// are written back, one a cycle.
 class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
  public:
   FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, Film& film,
@@ -57,8 +57,8 @@ class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
   PrivateCache cache_;
   FilmBatch* batch_ = nullptr;  ///< being added
   std::size_t position_ = 0;
-  std::uint64_t next_line_ = 0;  ///< of the contribution at position_, already asked for
-  bool waits_for_mshr_ = false;
+  Bytes bytes_asked_for_ = 0;  ///< of the pixel of the contribution at position_
+  bool waits_for_room_ = false;
   std::vector<std::uint64_t> dirty_lines_;
   bool flushing_ = false;
   FilmStats stats_;

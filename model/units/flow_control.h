@@ -45,7 +45,7 @@ class WorstCase {
 class FlowControl {
  public:
   FlowControl(const FlowSpec& spec, const WorstCase& worst_case, std::uint64_t credits)
-      : worst_case_(worst_case), credits_(credits), by_tile_(spec.control == FlowPolicy::kTile) {}
+      : worst_case_(worst_case), credits_(credits), policy_(spec.control) {}
 
   void bind_source(Inbox& inbox) { source_ = &inbox; }
   void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }
@@ -66,13 +66,13 @@ class FlowControl {
     }
   }
 
-  [[nodiscard]] bool by_tile() const { return by_tile_; }
+  [[nodiscard]] bool by_tile() const { return policy_ == FlowPolicy::kTile; }
   [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
   [[nodiscard]] bool admits(std::uint64_t reservation) const {
-    return by_tile_ || counts_.reserved + reservation <= credits_;
+    return policy_ != FlowPolicy::kCredits || counts_.reserved + reservation <= credits_;
   }
   [[nodiscard]] bool admits(std::uint64_t reservation, Cycles now) const {
-    return by_tile_ || seen(now).reserved + reservation <= credits_;
+    return policy_ != FlowPolicy::kCredits || seen(now).reserved + reservation <= credits_;
   }
   void admit(std::uint64_t rays, std::uint64_t reservation, Cycles now) {
     Counts& counts = change(now);
@@ -92,7 +92,7 @@ class FlowControl {
       nudge(source_, now);
       nudge(regrouper_, now);
       nudge(shader_cache_, now);
-    } else if (!by_tile_) {
+    } else if (policy_ == FlowPolicy::kCredits) {
       nudge(source_, now);
     }
     if (counts.is_finished()) nudge(film_, now);
@@ -164,7 +164,7 @@ class FlowControl {
 
   const WorstCase worst_case_;
   const std::uint64_t credits_;
-  const bool by_tile_;
+  const FlowPolicy policy_;
   Counts counts_;
   Counts before_;       ///< at the end of the cycle before changed_
   Cycles changed_ = 0;  ///< cycle of the last change

@@ -51,7 +51,7 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
 // A job matters only while there is a context for it.
 Cycles IntersectionUnit::earliest_input() {
   const Cycles job = has_free_context() ? jobs_ahead_.earliest() : kNever;
-  return std::min(job, earliest_answer(parked(), lines_ahead_));
+  return or_answer(job, parked(), lines_ahead_);
 }
 
 bool IntersectionUnit::ready(int number, Cycles now) {
@@ -79,39 +79,39 @@ bool IntersectionUnit::ready(int number, Cycles now) {
 }
 
 bool IntersectionUnit::fetch(int number, Address first, Bytes bytes, DataKind kind,
-                             std::uint32_t& lookups, Cycles now) {
+                             Cycles& port_cycles, Cycles now) {
   const std::uint64_t first_line = cache_.line_of(first);
   const auto num_lines =
       static_cast<std::uint32_t>(cache_.line_of(first + bytes - 1) - first_line + 1);
   const auto outcome = fetcher_.fetch(
       number, num_lines, kind, [&](std::uint32_t i) { return first_line + i; }, now);
-  lookups = outcome.lookups;
+  port_cycles = outcome.port_cycles;
   return outcome.complete;
 }
 
 void IntersectionUnit::issue(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
-  std::uint32_t lookups = 0;
+  Cycles port_cycles = 0;
   bool complete = false;
   if (context.phase == Phase::kList) {
-    complete =
-        fetch(number, scene_.memory.leaf_entry(first),
-              context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList, lookups, now);
+    complete = fetch(number, scene_.memory.leaf_entry(first),
+                     context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList,
+                     port_cycles, now);
     if (complete) context.phase = Phase::kListIssued;
   } else {
     const std::uint32_t triangle = scene_.tree.leaf_triangles[first + context.tested];
     complete = fetch(number, scene_.memory.triangle(triangle), MemoryMap::kTriangleSize,
-                     DataKind::kTriangle, lookups, now);
+                     DataKind::kTriangle, port_cycles, now);
     if (complete) context.phase = Phase::kTriangleIssued;
   }
   if (!complete) {
     park(number, now + times_.line);
-    occupy_missed(lookups, now);
+    occupy_missed(port_cycles, now);
   } else if (context.phase == Phase::kListIssued) {
-    occupy_fetch(number, cache_.hit_latency(), lookups, now);
+    occupy_fetch(number, cache_.hit_latency(), port_cycles, now);
   } else {
-    occupy(number, slots_per_step_, cache_.hit_latency(), lookups, now);
+    occupy(number, slots_per_step_, cache_.hit_latency(), port_cycles, now);
   }
 }
 

@@ -46,7 +46,7 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
+  bool fetch(int context, Address first, Bytes bytes, DataKind kind, Cycles& port_cycles,
              Cycles now);
 
   const TracedScene scene_;

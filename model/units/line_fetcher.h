@@ -21,8 +21,8 @@ class LineFetcher {
   explicit LineFetcher(PrivateCache& cache) : cache_(cache) {}
 
   struct Outcome {
-    bool complete = false;      ///< every line is there
-    std::uint32_t lookups = 0;  ///< made now
+    bool complete = false;   ///< every line is there
+    Cycles port_cycles = 0;  ///< in which the look-ups made now find a port
   };
 
   /// Asks for the lines that the context's step has not asked for yet; line(i) is the i-th of
@@ -33,11 +33,17 @@ class LineFetcher {
     LineFetch& progress = progress_[static_cast<std::size_t>(context)];
     Outcome outcome;
     while (progress.next < num_lines) {
-      ++outcome.lookups;
+      ++outcome.port_cycles;
       const auto result = cache_.read(line(progress.next), kind, context, now);
       if (result == PrivateCache::Result::kNoMshr) break;
       if (result == PrivateCache::Result::kPending) ++progress.pending;
       ++progress.next;
+    }
+    if (!cache_.is_plain()) {
+      // The last look-up came to nothing if a line is left.
+      const std::uint32_t end = progress.next + (progress.next < num_lines ? 1 : 0);
+      const auto looked_up = static_cast<std::uint32_t>(outcome.port_cycles);
+      outcome.port_cycles = cache_.port_cycles(end - looked_up, end, line);
     }
     outcome.complete = progress.next == num_lines && progress.pending == 0;
     if (outcome.complete) progress = {};

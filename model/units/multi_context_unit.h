@@ -45,7 +45,8 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
-  Cycles wake(Cycles now) final {
+  // Flattened: a wake-up is a few short calls, each of which would save and restore registers.
+  [[gnu::flatten]] Cycles wake(Cycles now) final {
     // What arrives behind the unit's own time found no free context until then.
     if (now <= latest_ && !resumes_) return latest_ + 1;
     resumes_ = false;
@@ -59,8 +60,7 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
       }
       now = next_event();
       if (now < bound_) continue;
-      bound_ = safe_until();
-      if (now >= bound_) break;
+      if (now >= domain_.end() || !is_safe(now)) break;
     }
     domain_.happened(latest_);
     return now;
@@ -149,15 +149,18 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   }
   void answered(int context) { awaiting_ &= ~(std::uint64_t{1} << context); }
   [[nodiscard]] std::uint64_t awaiting() const { return awaiting_; }
-  /// The earliest answer that one of these contexts, or line that one of these parked ones, can get
-  /// over links of this lookahead.
-  [[nodiscard]] Cycles earliest_answer(std::uint64_t contexts, const Lookahead& links) const {
-    if (contexts == 0) return kNever;
-    Cycles earliest = kNever;
+  /// The least of `input` and of the earliest answer that one of these contexts, or line that one
+  /// of these parked ones, can get over links of this lookahead.
+  [[nodiscard]] Cycles or_answer(Cycles input, std::uint64_t contexts,
+                                 const Lookahead& links) const {
+    if (contexts == 0) return input;
+    const Cycles over_links = links.earliest();
+    if (over_links >= input) return input;
+    Cycles awaited = kNever;
     for (std::uint64_t left = contexts; left != 0; left &= left - 1) {
-      earliest = std::min(earliest, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
+      awaited = std::min(awaited, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
     }
-    return std::max(earliest, links.earliest());
+    return std::min(input, std::max(awaited, over_links));
   }
 
   // Contexts that a full channel holds up.
@@ -185,14 +188,16 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   const std::uint32_t slots_per_step_;
 
  private:
-  [[nodiscard]] Cycles safe_until() {
-    const Cycles others = domain_.horizon();
+  // Looks up the bound as far as is needed to tell whether `next` is below it.
+  [[nodiscard]] bool is_safe(Cycles next) {
+    bound_ = std::min(domain_.horizon(), domain_.end());
+    if (next < bound_) return true;
     // A blocked context may be let go at any time.
-    if (blocked_ != 0 || domain_.in_step()) return others;
+    if (blocked_ != 0 || domain_.in_step()) return false;
     const Cycles input = static_cast<Derived&>(*this).earliest_input();
-    return std::min({std::max(others, input), domain_.limit(), domain_.end()});
+    bound_ = std::max(bound_, std::min({input, domain_.limit(), domain_.end()}));
+    return next < bound_;
   }
-
   [[nodiscard]] Cycles next_event() const {
     const Cycles next = std::min(agenda_.next(), inbox_.next());
     return ready_.is_empty() ? next : std::min(next, port_free_);

@@ -139,10 +139,10 @@ void ShaderUnit::issue(int number, Cycles now) {
   if (outcome.complete) {
     context.issued = true;
     const Cycles hit_latency = texels ? textures_->hit_latency() : attributes_.hit_latency();
-    occupy_fetch(number, hit_latency, outcome.lookups, now);
+    occupy_fetch(number, hit_latency, outcome.port_cycles, now);
   } else {
     park(number, now);
-    occupy_missed(outcome.lookups, now);
+    occupy_missed(outcome.port_cycles, now);
   }
 }
 
@@ -169,6 +169,11 @@ void ShaderUnit::send_output(int number, Cycles now) {
     }
     context.batch = nullptr;
   }
+  if (context.bundle != nullptr && out_bundles->num_free(now) == 0) {
+    out_bundles->notify_when_free(inbox_);
+    block(number);
+    return;
+  }
   std::uint64_t spawned = 0;
   std::uint64_t reserved = 0;
   if (context.bundle != nullptr) {
@@ -177,7 +182,6 @@ void ShaderUnit::send_output(int number, Cycles now) {
       reserved += scene_.flow.worst_case(ray.tag);
     }
     spawned = context.bundle->rays.size();
-    // Flow control keeps this link from ever being full.
     out_bundles->nb_write(context.bundle, now);
     context.bundle = nullptr;
   }

@@ -70,8 +70,7 @@ Cycles TraversalUnit::accept_inputs(Cycles now) {
 // Packets come only for a free context; lines and answers only for who has asked for them.
 Cycles TraversalUnit::earliest_input() {
   const Cycles packet = has_free_context() ? packets_ahead_.earliest() : kNever;
-  return std::min({packet, earliest_answer(awaiting(), answers_ahead_),
-                   earliest_answer(parked(), lines_ahead_)});
+  return or_answer(or_answer(packet, awaiting(), answers_ahead_), parked(), lines_ahead_);
 }
 
 void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {

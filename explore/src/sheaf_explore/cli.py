@@ -174,6 +174,9 @@ def paper(
         Path | None,
         typer.Option("--dragon", help="A scene with the real dragon, to compare it too"),
     ] = None,
+    docs: Annotated[
+        Path | None, typer.Option("--docs", help="Write paper.md with its images here, too")
+    ] = None,
     sheaf: Sheaf = None,
     workers: Workers = _PROCESSORS,
     cache: Cache = None,
@@ -196,7 +199,7 @@ def paper(
         ClusterChoice(workers),
         _say,
     )
-    raise typer.Exit(command.make_paper(plan, shop, out))
+    raise typer.Exit(command.make_paper(plan, shop, out, docs))
 
 
 def main() -> None:

@@ -33,13 +33,19 @@ def chart_script() -> str:
     return vl_convert.javascript_bundle(_SNIPPET)
 
 
+def write_svg(folder: Path, plots: list[Plot]) -> None:
+    """Writes each plot as SVG."""
+    for plot in plots:
+        picture = vl_convert.vegalite_to_svg(plot.chart.to_dict())
+        write_whole(folder / f"{plot.name}.svg", picture)
+
+
 def write_pictures(folder: Path, plots: list[Plot]) -> None:
     """Writes each plot as PNG and SVG."""
     for plot in plots:
-        chart = plot.chart.to_dict()
-        png = vl_convert.vegalite_to_png(chart, scale=_PNG_SCALE)
+        png = vl_convert.vegalite_to_png(plot.chart.to_dict(), scale=_PNG_SCALE)
         write_whole(folder / f"{plot.name}.png", png)
-        write_whole(folder / f"{plot.name}.svg", vl_convert.vegalite_to_svg(chart))
+    write_svg(folder, plots)
 
 
 def _number(value: Any) -> str:

@@ -6,22 +6,13 @@
 #include <utility>
 
 namespace sheaf::clocked {
-namespace {
-
-std::uint32_t num_sets(const CacheSpec& spec) {
-  if (spec.mode != CacheMode::kNormal) return 0;
-  return static_cast<std::uint32_t>(spec.capacity / (spec.line * spec.ways));
-}
-
-}  // namespace
-
 Cache::Cache(const CacheSpec& spec, std::uint16_t requester, Link<LineRequest>& to_l2,
              Link<LineResponse>& from_l2)
     : spec_(spec),
       requester_(requester),
       to_l2_(to_l2),
       from_l2_(from_l2),
-      array_(num_sets(spec), spec.ways) {}
+      array_(bank_shape(spec, 1)) {}
 
 void Cache::count_access(DataKind kind, std::uint64_t CacheStats::*outcome) {
   CacheKindStats& of_kind = kind_stats_[static_cast<std::size_t>(kind)];
@@ -53,7 +44,7 @@ Cache::Result Cache::access(std::uint64_t line, DataKind kind, int waiter, bool 
   }
   count_access(kind, &CacheStats::num_misses);
   stats_.bytes_read += spec_.line;
-  mshrs_.push_back({line, bit, kind, dirty});
+  mshrs_.push_back({line, bit, now, kind, dirty});
   to_l2_.write({line * spec_.line, static_cast<std::uint32_t>(spec_.line), requester_, kind, false},
                now);
   return Result::kPending;
@@ -65,6 +56,8 @@ Cache::Arrival Cache::take_line(Cycles now) {
       std::find_if(mshrs_.begin(), mshrs_.end(), [&](const Mshr& m) { return m.line == line; });
   const Mshr mshr = *found;
   mshrs_.erase(found);
+  stats_.sum_miss_latency += now - mshr.since;
+  stats_.mshr_occupancy_cycles += now - mshr.since;
   const CacheArray::Victim victim = array_.fill(line, mshr.dirty);
   if (victim.valid && victim.dirty) write_back(victim.line, mshr.kind, now);
   return {mshr.waiters, std::exchange(waiting_for_mshr_, 0)};

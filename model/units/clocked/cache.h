@@ -51,6 +51,7 @@ class Cache {
   struct Mshr {
     std::uint64_t line = 0;
     std::uint64_t waiters = 0;
+    Cycles since = 0;
     DataKind kind{};
     bool dirty = false;
   };

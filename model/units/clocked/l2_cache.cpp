@@ -5,19 +5,12 @@
 #include <algorithm>
 
 namespace sheaf::clocked {
-namespace {
-
-std::uint32_t sets_per_bank(const L2Spec& spec) {
-  if (spec.mode != CacheMode::kNormal) return 0;
-  return static_cast<std::uint32_t>(spec.capacity / (spec.line * spec.ways * spec.banks));
-}
-
-}  // namespace
-
 L2Cache::L2Cache(const L2Spec& spec, Dram& dram)
     : spec_(spec), dram_(dram), hits_("hits", {.latency = spec.hit_latency, .interval = 0}) {
   for (std::uint32_t bank = 0; bank < spec.banks; ++bank) {
-    banks_.push_back({CacheArray(sets_per_bank(spec), spec.ways), {}, {}, 0, false});
+    ArrayShape shape = bank_shape(spec, spec.banks);
+    shape.seed += bank;
+    banks_.push_back({CacheArray(shape), {}, {}, 0, false});
   }
 }
 
@@ -33,6 +26,10 @@ void L2Cache::tick(Cycles now) {
   }
   for (Link<LineRequest>* requests : in_requests) {
     while (requests->has_arrived(now)) accept(requests->read(now), now);
+  }
+  for (const Bank& bank : banks_) {
+    stats_.queue_occupancy_cycles += bank.queue.size();
+    stats_.mshr_occupancy_cycles += bank.mshrs.size();
   }
 }
 
@@ -78,7 +75,7 @@ bool L2Cache::serve_read(Bank& bank, const LineRequest& request, Cycles now) {
   if (bank.mshrs.size() == spec_.mshrs) return false;
   ++stats_.num_misses;
   kind_of(request).bytes_read += spec_.line;
-  bank.mshrs.push_back({line, {request}});
+  bank.mshrs.push_back({line, now, {request}});
   send_to_dram(line * spec_.line, spec_.line, false, now);
   return true;
 }
@@ -105,6 +102,7 @@ void L2Cache::fill(Address address, Cycles now) {
   for (const LineRequest& waiter : mshr->waiters) {
     out_responses[waiter.requester]->write({waiter.address}, now);
   }
+  stats_.sum_miss_latency += now - mshr->since;
   bank.mshrs.erase(mshr);
   bank.blocked = false;
   const CacheArray::Victim victim = bank.array.fill(line / spec_.banks, false);

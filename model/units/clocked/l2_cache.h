@@ -52,6 +52,7 @@ class L2Cache {
   };
   struct Mshr {
     std::uint64_t line = 0;
+    Cycles since = 0;
     std::vector<LineRequest> waiters;
   };
   struct Bank {

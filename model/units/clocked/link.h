@@ -65,6 +65,8 @@ class Link {
   /// Most messages held from one cycle to the next.
   [[nodiscard]] std::size_t max_size() const { return max_size_; }
   [[nodiscard]] std::uint64_t num_written() const { return num_written_; }
+  /// Messages held, summed over all cycles.
+  [[nodiscard]] Cycles occupancy_cycles() const { return occupancy_cycles_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
@@ -74,6 +76,7 @@ class Link {
   };
   void begin_cycle(Cycles now) {
     if (now != cycle_) max_size_ = std::max(max_size_, messages_.size());
+    occupancy_cycles_ += messages_.size() * (now - cycle_);
     cycle_ = now;
   }
 
@@ -85,6 +88,7 @@ class Link {
   Cycles cycle_ = 0;  ///< of the last write or read
   std::size_t max_size_ = 0;
   std::uint64_t num_written_ = 0;
+  Cycles occupancy_cycles_ = 0;
 };
 
 /// The writer's end of several links of which any will do: they are taken in turn, and one without

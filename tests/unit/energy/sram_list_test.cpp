@@ -89,9 +89,20 @@ TEST(SramList, CellsFollowHeuristicAndSetting) {
   EXPECT_EQ(Machine({"ray_cache.heuristic=pos(1)"}).bits("ray_cache"), 64 * (cell + 96));
 }
 
+// Valid and dirty bits by sector; banks change the energy of an access, not the size.
+TEST(SramList, SectorsAddBitsAndBanksMakeAccessesCheaper) {
+  EXPECT_EQ(Machine({"node_cache.sectors=4"}).bits("node_cache"), 131'072U + 256 * (19 + 6));
+  Machine whole;
+  Machine banked({"node_cache.banks=4"});
+  EXPECT_EQ(banked.bits("node_cache"), whole.bits("node_cache"));
+  EXPECT_DOUBLE_EQ(banked.find("node_cache")->word_picojoule().value() * 2,
+                   whole.find("node_cache")->word_picojoule().value());
+}
+
 TEST(SramList, CreditsBoundTheQueue) {
   Machine machine({"flow.control=credits", "flow.credits=100"});
   EXPECT_EQ(machine.bits("spawned_rays"), 100U * 343);
+  EXPECT_EQ(Machine({"flow.control=spill", "flow.spill_queue=30"}).bits("spawned_rays"), 30U * 343);
 }
 
 }  // namespace

@@ -17,10 +17,16 @@ SLIGHTLY = 0.25
 class Case:
     """One place where a claim can be checked; None where there is no figure."""
 
-    place: str
+    scene: str
+    stands_for: str
+    spot: str  # level, kind of rays or direction, where a scene has several cases
     ours: bool | None
     paper: bool | None
     evidence: str
+
+    @property
+    def place(self) -> str:
+        return f"{self.scene}, {self.spot}" if self.spot else self.scene
 
 
 @dataclass(frozen=True)
@@ -57,7 +63,7 @@ class Claim:
 Check = Callable[["pd.Series[float]"], bool]
 
 
-def _case(place: str, group: pd.DataFrame, index: str, check: Check) -> Case:
+def _case(group: pd.DataFrame, spot: str, index: str, check: Check) -> Case:
     """Applies a check to our figures and to the paper's, by the column `index`."""
     answers: dict[str, bool | None] = {}
     for column in ("ours", "paper"):
@@ -65,31 +71,32 @@ def _case(place: str, group: pd.DataFrame, index: str, check: Check) -> Case:
         known = not values.empty and not values.isna().any()
         answers[column] = check(values) if known else None
     ours = ", ".join(f"{k} {v:.3g}" for k, v in zip(group[index], group["ours"], strict=True))
-    return Case(place, answers["ours"], answers["paper"], ours)
+    scene, stands_for = group["scene"].iloc[0], group["stands_for"].iloc[0]
+    return Case(scene, stands_for, spot, answers["ours"], answers["paper"], ours)
 
 
 def _by_level(table4: pd.DataFrame, check: Check) -> Iterator[Case]:
     chosen = table4[table4["measure"] == "p_t"]
-    for (scene, level), group in chosen.groupby(["scene", "level"], sort=False):
-        yield _case(f"{scene}, level {level}", group, "heuristic", check)
+    for (_, level), group in chosen.groupby(["scene", "level"], sort=False):
+        yield _case(group, f"level {level}", "heuristic", check)
 
 
 def _depth(table4: pd.DataFrame) -> Iterator[Case]:
     chosen = table4[(table4["measure"] == "c_t") & (table4["heuristic"] == "none")]
-    for scene, group in chosen.groupby("scene", sort=False):
+    for _, group in chosen.groupby("scene", sort=False):
         rises = group["stands_for"].iloc[0] == "fairy"
 
         def check(values: pd.Series[float], rises: bool = rises) -> bool:
             steps = values.diff().dropna()
             return bool((steps > 0).all() if rises else (steps < 0).all())
 
-        yield _case(f"{scene}: {'rises' if rises else 'falls'}", group, "level", check)
+        yield _case(group, "rises" if rises else "falls", "level", check)
 
 
 def _interval(table3: pd.DataFrame) -> Iterator[Case]:
     chosen = table3[(table3["measure"] == "p_t") & (table3["rays"] == "secondary")]
-    for scene, group in chosen.groupby("scene", sort=False):
-        yield _case(str(scene), group, "traversal", lambda p_t: bool(p_t["interval"] < 1))
+    for _, group in chosen.groupby("scene", sort=False):
+        yield _case(group, "", "traversal", lambda p_t: bool(p_t["interval"] < 1))
 
 
 def _omni(table3: pd.DataFrame) -> Iterator[Case]:
@@ -97,8 +104,8 @@ def _omni(table3: pd.DataFrame) -> Iterator[Case]:
         return bool(p_t["none"] < p_t["omni"] <= (1 + SLIGHTLY) * p_t["none"])
 
     chosen = table3[table3["measure"] == "p_t"]
-    for (scene, rays), group in chosen.groupby(["scene", "rays"], sort=False):
-        yield _case(f"{scene}, {rays}", group, "traversal", check)
+    for (_, rays), group in chosen.groupby(["scene", "rays"], sort=False):
+        yield _case(group, str(rays), "traversal", check)
 
 
 def _sizes(table2: pd.DataFrame) -> Iterator[Case]:
@@ -106,12 +113,12 @@ def _sizes(table2: pd.DataFrame) -> Iterator[Case]:
         share = p_t / p_t.index.to_numpy(dtype=float)
         return bool((p_t.diff().dropna() > 0).all() and (share.diff().dropna() < 0).all())
 
-    for scene, group in table2[table2["measure"] == "p_t"].groupby("scene", sort=False):
-        yield _case(str(scene), group, "packet_size", check)
+    for _, group in table2[table2["measure"] == "p_t"].groupby("scene", sort=False):
+        yield _case(group, "", "packet_size", check)
 
 
-def check_claims(table2: pd.DataFrame, table3: pd.DataFrame, table4: pd.DataFrame) -> list[Claim]:
-    """All claims of the paper that its tables can decide."""
+def check_coherence(table4: pd.DataFrame) -> list[Claim]:
+    """The claims that table 4 can decide."""
     return [
         Claim(
             "depth",
@@ -128,6 +135,13 @@ def check_claims(table2: pd.DataFrame, table3: pd.DataFrame, table4: pd.DataFram
             "fastpos has the lowest p_t",
             tuple(_by_level(table4, lambda p_t: bool(p_t["fastpos"] <= p_t.min()))),
         ),
+    ]
+
+
+def check_claims(table2: pd.DataFrame, table3: pd.DataFrame, table4: pd.DataFrame) -> list[Claim]:
+    """All claims of the paper that its tables can decide."""
+    return [
+        *check_coherence(table4),
         Claim(
             "interval-below-one",
             "interval's p_t of secondary rays falls below one",

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 from sheaf_explore.errors import Exit, ExploreError
-from sheaf_explore.paper.page import find, write_page
+from sheaf_explore.paper.page import find, write_docs, write_page
 from sheaf_explore.paper.plan import Plan
 from sheaf_explore.paper.runs import Scene, simulate, Workshop
 
@@ -48,13 +48,16 @@ def choose_scenes(names: str, sponza: Path | None, dragon: Path | None) -> tuple
     return tuple(scenes)
 
 
-def make_paper(plan: Plan, shop: Workshop, out: Path) -> Exit:
+def make_paper(plan: Plan, shop: Workshop, out: Path, docs: Path | None) -> Exit:
     """Runs what has no result yet and writes the report from all that has one."""
     runs = list(dict.fromkeys(plan.all_runs()))
     results, result = simulate(runs, shop)
     if result.tally.interrupted:
         shop.say("interrupted: the same command resumes")
         return Exit.INTERRUPTED
-    findings = find(plan, results, len(runs), len(runs) - result.done)
+    seconds = shop.store.processor_seconds()
+    findings = find(plan, results, len(runs), len(runs) - result.done, seconds)
     shop.say(f"report: {write_page(out, findings)}")
+    if docs is not None:
+        shop.say(f"page: {write_docs(docs, findings)}")
     return result.status

@@ -19,13 +19,19 @@ from sheaf_explore.paper.plan import HEURISTICS, MEMORIES, PACKET_SIZES
 _WIDE, _HIGH = 360, 260
 _SOURCES = ["ours", "paper"]
 _SOURCE = "who:N"
-_SMALL = 150  # width of one of many panels
+_ROW = 780  # width of a row of panels
 
 
-def _both(frame: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-    """Our rows and the paper's below each other, where there is a number."""
-    long = frame.melt(keys, ["ours", "paper"], var_name="who", value_name="value")
-    return long.dropna(subset=["value"])
+def _both(frame: pd.DataFrame, keys: list[str], once: bool = False) -> pd.DataFrame:
+    """Our rows and the paper's below each other, where there is a number.
+
+    With `once` the paper's stand beside the stand-in alone, not beside the real model as well.
+    """
+    names = [*keys, "stands_for"]
+    long = frame.melt(names, ["ours", "paper"], var_name="who", value_name="value")
+    known = long.dropna(subset=["value"])
+    twice = (known["who"] == "paper") & (known["scene"] != known["stands_for"])
+    return known[~twice] if once else known
 
 
 def _order(frame: pd.DataFrame, column: str) -> list[Any]:
@@ -61,7 +67,7 @@ def _lines(data: pd.DataFrame, x: Any, title: str, log: bool = False) -> Any:
 def figure2(table4: pd.DataFrame) -> Plot:
     """Coherence of the rays along the recursion level."""
     chosen = table4[(table4["heuristic"] == "none") & table4["measure"].isin(["c_t", "c_i"])]
-    data = _both(chosen, ["scene", "level", "measure"])
+    data = _both(chosen, ["scene", "level", "measure"], once=True)
     panels = [
         _lines(
             data[data["measure"] == measure],
@@ -109,7 +115,7 @@ def figure5(table4: pd.DataFrame) -> Plot:
     )
     chart = (
         base.mark_point(size=45, filled=True, opacity=0.85)
-        .properties(width=_SMALL, height=96)
+        .properties(width=_ROW // len(scenes), height=96)
         .facet(
             column=alt.Column("scene:N", sort=scenes, title=None),
             row=alt.Row("level:O", title="recursion level"),
@@ -126,7 +132,7 @@ def figure5(table4: pd.DataFrame) -> Plot:
 
 
 def _along_size(table2: pd.DataFrame, title: str, log: bool) -> Any:
-    data = _both(table2, ["scene", "packet_size"])
+    data = _both(table2, ["scene", "packet_size"], once=True)
     x = alt.X(
         "packet_size:Q",
         title="rays of a packet",
@@ -174,7 +180,7 @@ def gains_plot(gains: pd.DataFrame) -> Plot:
             x=alt.X("paper:Q", title="p_t over that of none, paper", scale=axis),
             y=alt.Y("ours:Q", title="p_t over that of none, here", scale=axis),
             color=_colour("heuristic", order, ""),
-            shape=alt.Shape("level:O", title="level", legend=alt.Legend(orient="bottom")),
+            shape=alt.Shape("level:N", title="level", legend=alt.Legend(orient="bottom")),
             tooltip=["scene:N", "level:O", "heuristic:N", "ours:Q", "paper:Q"],
         )
     )
@@ -230,7 +236,7 @@ def _by_sorting(machines: pd.DataFrame, column: str, title: str) -> Any:
         x=alt.X(f"{column}:Q", title=title, scale=alt.Scale(zero=False)),
         y=alt.Y("sorting:N", sort=sortings, title=None),
     )
-    one = base.mark_rule(color="#999", strokeDash=[3, 3]).encode(x=alt.datum(1.0), y=alt.Y())
+    one = alt.Chart(data).mark_rule(color="#999", strokeDash=[3, 3]).encode(x=alt.datum(1.0))
     dots = base.mark_point(filled=True, size=55, opacity=0.85).encode(
         color=_colour("scene", scenes, ""),
         tooltip=["scene:N", "memory:N", "sorting:N", alt.Tooltip(f"{column}:Q", format=".3f")],
@@ -240,6 +246,35 @@ def _by_sorting(machines: pd.DataFrame, column: str, title: str) -> Any:
         .properties(width=215, height=24 * len(sortings))
         .facet(column=alt.Column("memory:N", sort=memories, title=None))
     )
+
+
+def _by_size(machines: pd.DataFrame) -> Plot:
+    """Time along the size of the ray cache, by heuristic and memory."""
+    sorted_ = machines[machines["heuristic"] != "none"]
+    keys = ["memory", "heuristic", "ray_cache_kib"]
+    data = sorted_.groupby(keys, sort=False)["cycles_relative"].mean().reset_index()
+    base = alt.Chart(data).encode(
+        x=alt.X(
+            "ray_cache_kib:Q",
+            title="ray cache, KiB",
+            scale=alt.Scale(type="log", base=2, nice=False, padding=12),
+            axis=alt.Axis(values=[4, 8, 16, 32, 64]),
+        ),
+        y=alt.Y("cycles_relative:Q", title="cycles, none = 1", scale=alt.Scale(zero=False)),
+        color=_colour("heuristic", _order(data, "heuristic"), ""),
+    )
+    dots = base.mark_point(filled=True, size=60, opacity=0.9).encode(
+        tooltip=["heuristic:N", "ray_cache_kib:Q", alt.Tooltip("cycles_relative:Q", format=".3f")]
+    )
+    one = alt.Chart(data).mark_rule(color="#999", strokeDash=[3, 3]).encode(y=alt.datum(1.0))
+    memories = [m for m in MEMORIES if m in set(data["memory"])]
+    chart = (
+        alt.layer(one, base.mark_line(strokeWidth=1.5), dots, data=data)
+        .properties(width=200, height=200)
+        .facet(column=alt.Column("memory:N", sort=memories, title=None))
+    )
+    text = "Mean over the scenes, against the machine without sorting. Less is better."
+    return Plot("paper-size", "Length of the frame along the size of the ray cache", text, chart)
 
 
 def hardware_plots(machines: pd.DataFrame) -> list[Plot]:
@@ -256,6 +291,8 @@ def hardware_plots(machines: pd.DataFrame) -> list[Plot]:
             text = "Against the machine without sorting and with the same memory. "
             text += "More is better." if column.startswith("p_t") else "Less is better."
             plots.append(Plot(name, title, text, _by_sorting(machines, column, axis)))
+    if machines["ray_cache_kib"].notna().any():
+        plots.insert(1, _by_size(machines))
     return plots
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from sheaf_explore.paper.hardware import Verdict
-from sheaf_explore.paper.plan import HEURISTICS, LEVELS, PACKET_SIZES
+from sheaf_explore.paper.plan import HEURISTICS, LEVELS, PACKET_SIZES, USUAL_MEMORY
 
 _NEAR, _FAR = 0.15, 0.5  # relative differences, for the shade of a cell
 
@@ -134,9 +134,8 @@ def table3(frame: pd.DataFrame) -> Grid:
     return Grid(("scene", "rays", "traversal", "c_t", "p_t"), 3, rows)
 
 
-def table4(frame: pd.DataFrame) -> Grid:
-    """All measures by scene, heuristic and level."""
-    measures = ("c_t", "p_t", "c_i", "p_i")
+def table4(frame: pd.DataFrame, measures: tuple[str, ...] = ("c_t", "p_t", "c_i", "p_i")) -> Grid:
+    """Measures by scene, heuristic and level."""
     rows = tuple(
         Row(
             (scene, heuristic),
@@ -150,7 +149,7 @@ def table4(frame: pd.DataFrame) -> Grid:
         for part in [frame[frame["scene"] == scene]]
         for heuristic in HEURISTICS
     )
-    groups = tuple((f"recursion level {level}", len(measures)) for level in LEVELS)
+    groups = tuple((f"level {level}", len(measures)) for level in LEVELS)
     return Grid(("scene", "heuristic", *measures * len(LEVELS)), 2, rows, groups)
 
 
@@ -214,16 +213,13 @@ def verdicts(found: list[Verdict]) -> Grid:
 
 
 def sram(machines: pd.DataFrame) -> Grid:
-    """SRAM and area of each sorting, with the first scene and each memory."""
-    first = machines[machines["scene"] == machines["scene"].iloc[0]]
-    sortings = list(dict.fromkeys(first["sorting"]))
-    memories = list(dict.fromkeys(first["memory"]))
-    rows = []
-    for sorting in sortings:
-        cells = []
-        for memory in memories:
-            at = first[(first["sorting"] == sorting) & (first["memory"] == memory)].iloc[0]
-            cells += [Cell(number(at["sram_kib"])), Cell(number(at["area"]))]
-        rows.append(Row((sorting,), tuple(cells)))
-    groups = tuple((memory, 2) for memory in memories)
-    return Grid(("sorting", *("KiB", "mm²") * len(memories)), 1, tuple(rows), groups)
+    """What each sorting takes in SRAM; areas are the same for all scenes."""
+    usual = machines[machines["memory"] == USUAL_MEMORY]
+    once = usual.drop_duplicates("sorting")
+    columns = ("ray_cache_kib", "ray_cache_area", "area", "area_relative")
+    rows = tuple(
+        Row((row["sorting"],), tuple(Cell(number(row[column])) for column in columns))
+        for row in _records(once)
+    )
+    names = ("sorting", "ray cache, KiB", "ray cache, mm²", "all SRAM, mm²", "none = 1")
+    return Grid(names, 1, rows)

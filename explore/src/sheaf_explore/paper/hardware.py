@@ -11,19 +11,16 @@ import pandas as pd
 from sheaf_explore.paper.plan import Plan
 from sheaf_explore.paper.runs import Results
 
-COSTS = {  # column: counter, and what it is divided by
+COSTS = {  # column: counter
     "cycles": "system.cycles",
     "p_t": "trace.secondary.p_t",
     "bytes_per_ray": "system.dram.bytes_per_ray",
     "bus": "system.dram.bus_utilization",
     "node_hits": "derived.node_cache.hit_rate",
+    "energy": "energy.known",  # pJ
+    "area": "area.sram_mm2",
+    "ray_cache_area": "area.ray_cache.mm2",
 }
-# Energy of the frame in pJ, the most complete first, and what is in it.
-ENERGIES = {
-    "energy.known": "all items of the machine that are known",
-    "system.dram.energy.known": "DRAM alone",
-}
-AREA = "area.sram_mm2"
 PAYS = 0.01  # a gain below this share of the frame is called none
 
 
@@ -42,7 +39,6 @@ class Verdict:
 
 def machines(plan: Plan, results: Results) -> pd.DataFrame:
     """A row a machine and scene; `_relative` columns are against `none` with the same memory."""
-    counter = energy_counter(plan, results)
     rows = []
     for scene in plan.hardware_scenes():
         for machine in plan.machines():
@@ -55,25 +51,17 @@ def machines(plan: Plan, results: Results) -> pd.DataFrame:
                 "sorting": machine.label,
             }
             row |= {column: results.get(run, counter) for column, counter in COSTS.items()}
-            row["energy"] = results.get(run, counter)
-            row["area"] = results.get(run, AREA)
-            row["sram_kib"] = results.get(run, "derived.sram_bits") / 8 / 1024
+            row["ray_cache_kib"] = results.get(run, "area.ray_cache.bits") / 8 / 1024
             rows.append(row)
     frame = pd.DataFrame(rows)
     return _relative(frame) if len(frame) else frame
-
-
-def energy_counter(plan: Plan, results: Results) -> str:
-    """The most complete energy that a machine reports; empty if none does."""
-    runs = [plan.machine(s, m) for s in plan.hardware_scenes() for m in plan.machines()]
-    return next((e for e in ENERGIES if any(e in results.counters(r) for r in runs)), "")
 
 
 def _relative(frame: pd.DataFrame) -> pd.DataFrame:
     places = ["scene", "memory"]
     base = frame[frame["heuristic"] == "none"].set_index(places)
     at = pd.MultiIndex.from_frame(frame[places])
-    for column in ("cycles", "p_t", "bytes_per_ray", "energy", "sram_kib"):
+    for column in ("cycles", "p_t", "bytes_per_ray", "energy", "area"):
         frame[f"{column}_relative"] = frame[column] / base[column].reindex(at).to_numpy()
     return frame
 

@@ -16,8 +16,10 @@ import pandas as pd
 from sheaf_explore.charts import Plot
 from sheaf_explore.paper import answer, figures, grids, hardware, sway, tables
 from sheaf_explore.paper import plan as design
-from sheaf_explore.paper.claims import check_claims, Claim, frame_of
+from sheaf_explore.paper.claims import Case, check_claims, check_coherence, Claim, frame_of
+from sheaf_explore.paper.explain import scene_or_model
 from sheaf_explore.paper.hardware import Verdict
+from sheaf_explore.paper.markdown import write_markdown
 from sheaf_explore.paper.plan import Plan
 from sheaf_explore.paper.runs import Results
 from sheaf_explore.report import chart_script, spec_of, write_pictures
@@ -31,19 +33,25 @@ class Findings:
     plan: Plan
     tables: dict[str, pd.DataFrame]  # by the name of their CSV file
     claims: list[Claim]
+    elsewhere: list[Claim]  # those of table 4, checked on other views of the scenes
     verdicts: list[Verdict]
-    energy_of: str  # what the energy column holds; empty if there is none
     runs: int
     failed: int
+    processor_seconds: float  # that the runs took
+
+    @property
+    def stand_in_ranks(self) -> pd.DataFrame:
+        """Rank correlations of the stand-ins, without the real models."""
+        ranks = self.tables["ranks"]
+        return ranks[ranks["scene"] == ranks["stands_for"]]
 
     @property
     def median(self) -> float:
         """Median rank correlation of p_t over all stand-ins and levels."""
-        ranks = self.tables["ranks"]
-        return float(ranks[ranks["scene"] == ranks["stands_for"]]["spearman"].median())
+        return float(self.stand_in_ranks["spearman"].median())
 
 
-def find(plan: Plan, results: Results, runs: int, failed: int) -> Findings:
+def find(plan: Plan, results: Results, runs: int, failed: int, seconds: float) -> Findings:
     """Makes the tables of the report from the runs."""
     made = {
         "table1": tables.frame_rates(plan, results),
@@ -54,14 +62,16 @@ def find(plan: Plan, results: Results, runs: int, failed: int) -> Findings:
         "anchors": sway.anchors(plan, results),
         "machines": hardware.machines(plan, results),
     }
+    views = plan.views()
+    made["views"] = tables.coherence(views, results)
     made["ranks"] = tables.rank_correlations(made["table4"])
     made["gains"] = tables.gains(made["table4"])
     claims = check_claims(made["table2"], made["table3"], made["table4"])
+    elsewhere = check_coherence(made["views"])
     made["claims"] = frame_of(claims)
     machines = made["machines"]
     found = hardware.verdicts(machines) if len(machines) else []
-    energy_of = hardware.ENERGIES.get(hardware.energy_counter(plan, results), "")
-    return Findings(plan, made, claims, found, energy_of, runs, failed)
+    return Findings(plan, made, claims, elsewhere, found, runs, failed, seconds)
 
 
 def table_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
@@ -89,15 +99,33 @@ def table_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
     ]
 
 
+def _docs_grids(findings: Findings) -> list[tuple[str, str, grids.Grid]]:
+    """The same for a page of the documentation, which has no room for all of table 4."""
+    *others, (title, about, _) = table_grids(findings)
+    short = grids.table4(findings.tables["table4"], ("c_t", "p_t"))
+    return [*others, (title, about + " c_i and p_i are in the report.", short)]
+
+
+def _seen_twice(findings: Findings) -> list[tuple[Claim, Case, Case]]:
+    """Claims of table 4 that do not say the same of a stand-in seen from elsewhere."""
+    committed = {
+        (claim.name, case.scene, case.spot): case
+        for claim in findings.claims
+        for case in claim.cases
+    }
+    return [
+        (claim, before, case)
+        for claim in findings.elsewhere
+        for case in claim.cases
+        for before in [committed[claim.name, case.stands_for, case.spot]]
+        if before.ours != case.ours
+    ]
+
+
 def _context(findings: Findings) -> dict[str, Any]:
     made = findings.tables
     machines = made["machines"]
     paper, explaining, hardware_plots = figures.all_figures(made, made["gains"])
-    energy = (
-        f"Energy is that of {findings.energy_of}."
-        if findings.energy_of
-        else "Energy is not in it: this simulator reports none."
-    )
     return {
         "plan": findings.plan,
         "scenes": [scene.name for scene in findings.plan.scenes],
@@ -105,7 +133,7 @@ def _context(findings: Findings) -> dict[str, Any]:
         "failed": findings.failed,
         "csv": [f"{name}.csv" for name in made],
         "answer": answer.answer(machines, findings.verdicts),
-        "limits": [*answer.LIMITS, energy],
+        "limits": answer.LIMITS,
         "verdicts": findings.verdicts,
         "verdict_grid": grids.verdicts(findings.verdicts),
         "sram_grid": grids.sram(machines) if len(machines) else None,
@@ -113,7 +141,9 @@ def _context(findings: Findings) -> dict[str, Any]:
         "credits": f"{design.CREDITS:,}",
         "hardware_plots": hardware_plots,
         "claims": findings.claims,
-        "ranks": made["ranks"],
+        "elsewhere": findings.elsewhere,
+        "explained": scene_or_model(made["table4"], made["gains"]),
+        "pairs": len(findings.stand_in_ranks),
         "median": findings.median,
         "rank_grid": grids.ranks(made["ranks"]),
         "grids": table_grids(findings),
@@ -125,9 +155,20 @@ def _context(findings: Findings) -> dict[str, Any]:
     }
 
 
-def plots_of(context: dict[str, Any]) -> list[Plot]:
+def _plots_of(context: dict[str, Any]) -> list[Plot]:
     """Every plot of the page."""
     return [*context["figures"], *context["explaining"], *context["hardware_plots"]]
+
+
+def write_docs(folder: Path, findings: Findings) -> Path:
+    """Writes the page of the documentation; returns it."""
+    context = _context(findings)
+    more = {
+        "docs_grids": _docs_grids(findings),
+        "seen_twice": _seen_twice(findings),
+        "processor_minutes": f"{findings.processor_seconds / 60:.0f}",
+    }
+    return write_markdown(folder, context | more, _plots_of(context))
 
 
 def write_page(folder: Path, findings: Findings) -> Path:
@@ -136,7 +177,7 @@ def write_page(folder: Path, findings: Findings) -> Path:
     template = resources.files("sheaf_explore.paper").joinpath("page.html").read_text("utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     page = environment.from_string(template).render(**context, script=chart_script())
-    write_pictures(folder, plots_of(context))
+    write_pictures(folder, _plots_of(context))
     for name, frame in findings.tables.items():
         text = frame.to_csv(index=False, lineterminator="\n", quoting=csv.QUOTE_MINIMAL)
         write_whole(folder / f"{name}.csv", text)

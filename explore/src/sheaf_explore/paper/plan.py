@@ -10,10 +10,12 @@ timed.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sheaf_explore.paper.runs import Run, Scene
 from sheaf_explore.parameters import Value
+
+Settings = dict[str, Value]
 
 HEURISTICS = ("none", "dir", "mdir(96)", "fastpos", "pos(1.0)", "opos")
 LEVELS = (1, 2, 3)
@@ -23,9 +25,6 @@ TRAVERSAL_SCENES = ("newtree", "oldtree")
 TABLE1_HEURISTICS = ("none", "dir", "fastpos", "mdir(96)", "pos(1.0)")
 
 SWAY_LEVEL = 2
-SWAY_HEURISTICS = ("none", "dir", "mdir(96)", "fastpos", "pos(1.0)", "opos")
-
-Settings = dict[str, Value]
 
 
 @dataclass(frozen=True)
@@ -35,11 +34,11 @@ class Variant:
     group: str
     name: str
     settings: tuple[tuple[str, Value], ...]
-    only: tuple[str, ...] = SWAY_HEURISTICS  # that it can change
+    only: tuple[str, ...] = HEURISTICS  # that it can change
 
 
 BASE = Variant("as designed", "as designed", ())
-_SORTED = tuple(h for h in SWAY_HEURISTICS if h != "none")
+_SORTED = tuple(h for h in HEURISTICS if h != "none")
 VARIANTS = (
     BASE,
     Variant("tile", "8 × 8", (("flow.tile_size", 8),)),
@@ -54,7 +53,19 @@ VARIANTS = (
 )
 
 # x is in squared units of a scene, which the paper does not print either.
-POS_HEURISTICS = ("pos(0.01)", "pos(0.1)", "pos(10)")
+POS_HEURISTICS = ("pos(0.01)", "pos(0.1)", "pos(10)", "pos(100)")
+
+# Stand-ins seen from elsewhere: what changes with the view belongs to the scene, not to the model.
+VIEWS: dict[str, tuple[str, Settings]] = {
+    "fairy": (
+        "from farther away",
+        {"camera.position": (1.2, 5.0, 16.0), "camera.look_at": (0.0, 5.0, 0.0)},
+    ),
+    "newtree": (
+        "from above",
+        {"camera.position": (4.0, 14.0, 10.0), "camera.look_at": (0.0, 3.0, 0.0)},
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -87,10 +98,12 @@ MEMORIES: dict[str, Settings] = {
         "l2.capacity": 65536,
     },
 }
+USUAL_MEMORY = "DDR4"  # with caches of their default size
 SORTINGS = (
     ("none", 0),
     ("dir", 8),
     ("mdir(24)", 24),
+    ("mdir(96)", 8),
     ("mdir(96)", 24),
     ("mdir(96)", 96),
     ("fastpos", 8),
@@ -186,18 +199,29 @@ class Plan:
         """The scenes of table 3."""
         return [scene for scene in self.scenes if scene.stands_for in TRAVERSAL_SCENES]
 
+    def views(self) -> Plan:
+        """The same experiments on stand-ins that are seen from elsewhere."""
+        scenes = []
+        for scene in self.varied_scenes():
+            if scene.name in VIEWS:
+                where, settings = VIEWS[scene.name]
+                name = f"{scene.name} {where}"
+                scenes.append(replace(scene, name=name, settings=tuple(settings.items())))
+        return replace(self, scenes=tuple(scenes))
+
     def all_runs(self) -> Iterator[Run]:
-        """Everything, the slowest first, so that no processor waits at the end."""
+        """Everything: the slowest first, the rest in the order in which it is read."""
         for scene in reversed(self.traversal_scenes()):
             yield from (self.traversal(scene, scheme) for scheme in TRAVERSALS.values())
-        for scene in self.hardware_scenes():
-            yield from (self.machine(scene, machine) for machine in self.machines())
-        for scene in self.scenes:
-            yield from (self.frame_rate(scene, h) for h in TABLE1_HEURISTICS)
+        for scene in (*self.scenes, *self.views().scenes):
             for level in LEVELS:
                 yield from (self.coherence(scene, level, h) for h in HEURISTICS)
+        for scene in self.scenes:
             yield from (self.packet(scene, size) for size in PACKET_SIZES)
+            yield from (self.frame_rate(scene, h) for h in TABLE1_HEURISTICS)
         for scene in self.varied_scenes():
             for variant in VARIANTS:
                 yield from (self.coherence(scene, SWAY_LEVEL, h, variant) for h in variant.only)
             yield from (self.coherence(scene, SWAY_LEVEL, h) for h in POS_HEURISTICS)
+        for scene in self.hardware_scenes():
+            yield from (self.machine(scene, machine) for machine in self.machines())

@@ -97,7 +97,6 @@ def simulate(runs: Iterable[Run], shop: Workshop) -> tuple[Results, Result]:
 def _numbers(shop: Workshop, entry: Entry) -> dict[str, float]:
     """All counters and derived columns of a finished run."""
     stats = {name: field["value"] for name, field in shop.store.stats(entry.id).items()}
-    settings = shop.simulator.parameters.defaults | entry.settings
-    derived = {name: value for name, (value, _) in derive(stats, settings).items()}
+    derived = {name: value for name, (value, _) in derive(stats).items()}
     numbers = stats | derived
     return {name: v for name, v in numbers.items() if isinstance(v, (int, float))}

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-#include "stability/exact_hit.h"
+#include "stability/exact.h"
 
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -96,6 +96,12 @@ ExactHit hit_exactly(const TriangleRecord& triangle, const Ray& ray) {
   hit.t =
       along == 0 ? std::numeric_limits<double>::infinity() : ratio(dot(corners[0], normal), along);
   return hit;
+}
+
+double sum_exactly(std::span<const float> terms) {
+  Integer sum = 0;
+  for (const float term : terms) sum += whole(term);
+  return std::ldexp(ratio(sum, 1), -149);
 }
 
 bool contains_axis(const ShearedTriangle& s) {
