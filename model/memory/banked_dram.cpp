@@ -70,6 +70,12 @@ void BankedDram::answer(const DramSystem::Done& done) {
   static_cast<void>(from_cache->nb_transport_bw(payload, phase, delay));
 }
 
+// Refreshes go on while nothing is asked for.
+void BankedDram::finish(Cycles end) {
+  advanced_to_ = std::max(advanced_to_, to_memory_.up(end));
+  memory_.advance(advanced_to_, [](const DramSystem::Done& /*done*/) {});
+}
+
 Cycles BankedDram::memory_end(Cycles end) const {
   return std::max(to_memory_.up(end), memory_.now() + 1);
 }

@@ -41,6 +41,7 @@ class BankedDram final : public MainMemory, public Agent {
   /// The core cycle of a cycle of the memory.
   [[nodiscard]] Cycles to_core(Cycles memory_cycle) const { return to_core_.up(memory_cycle); }
 
+  void finish(Cycles end) override;
   [[nodiscard]] DramStats stats(Cycles end) const override;
   void report_details(const std::string& path, Cycles end, StatsTree& stats) const override;
 

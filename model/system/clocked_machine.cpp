@@ -30,6 +30,7 @@ ClockedMachine::ClockedMachine(const Config& config, const BuildPlan& plan,
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
+  list_units();
 }
 
 void ClockedMachine::build_memory() {
@@ -194,28 +195,23 @@ void ClockedMachine::connect_shaders() {
   }
 }
 
-template <typename F>
-void ClockedMachine::for_each_unit(F&& f) const {
-  f(*primary_source_);
-  f(*packet_arbiter_);
-  for (const auto& unit : traversal_units_) f(*unit);
-  for (const auto& unit : intersection_units_) f(*unit);
-  for (const auto& unit : shader_units_) f(*unit);
-  if (shader_cache_) f(*shader_cache_);
-  f(*film_);
-  if (ray_cache_) f(*ray_cache_);
-  if (spawn_router_) f(*spawn_router_);
+// Their order matters only where several write into one link in the same cycle.
+void ClockedMachine::list_units() {
+  units_ = {primary_source_.get(), packet_arbiter_.get()};
+  for (const auto& unit : traversal_units_) units_.push_back(unit.get());
+  for (const auto& unit : intersection_units_) units_.push_back(unit.get());
+  for (const auto& unit : shader_units_) units_.push_back(unit.get());
+  if (shader_cache_) units_.push_back(shader_cache_.get());
+  units_.push_back(film_.get());
+  if (ray_cache_) units_.push_back(ray_cache_.get());
+  if (spawn_router_) units_.push_back(spawn_router_.get());
 }
 
-// The order matters only for what units share without a link: flow control's counters, of which the
-// source sees those of the cycle before, and the order in which several units write to one link.
 void ClockedMachine::tick(Cycles now) {
   l2_->tick(now);
   dram_->tick(now);
-  for_each_unit([&](auto& unit) {
-    unit.tick(now);
-    ++num_wakes_;
-  });
+  for (clocked::Unit* unit : units_) unit->tick(now);
+  num_wakes_ += units_.size();
 }
 
 bool ClockedMachine::is_at_rest() const {
@@ -244,7 +240,7 @@ bool ClockedMachine::run(const Monitor& monitor) {
 // Nothing is on its way, and no unit works at anything.
 bool ClockedMachine::is_still(Cycles now) const {
   bool moving = l2_->is_moving() || (ray_cache_ && ray_cache_->will_time_out());
-  for_each_unit([&](const auto& unit) { moving |= unit.stalls().cause() == StallCause::kBusy; });
+  for (const auto* unit : units_) moving |= unit->stalls().cause() == StallCause::kBusy;
   links_.for_each([&](const auto& link) { moving |= link.is_moving(now); });
   for (const auto& link : requests_) moving |= link->is_moving(now);
   return !moving;
@@ -263,11 +259,11 @@ void ClockedMachine::check_progress(Cycles now) {
 std::string ClockedMachine::describe_stuck(Cycles now) const {
   std::string text = fmt::format(
       "the machine made no more progress after cycle {}: {} rays in the loop", now, flow_.live());
-  for_each_unit([&](const auto& unit) {
-    const StallCause cause = unit.stalls().cause();
-    if (cause == StallCause::kIdle) return;
-    text += fmt::format("; {}: {}", unit.name(), to_string(cause));
-  });
+  for (const auto* unit : units_) {
+    const StallCause cause = unit->stalls().cause();
+    if (cause == StallCause::kIdle) continue;
+    text += fmt::format("; {}: {}", unit->name(), to_string(cause));
+  }
   if (!l2_->is_idle()) text += "; l2: requests queued";
   return text;
 }

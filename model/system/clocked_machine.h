@@ -58,6 +58,7 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void build_regrouper();
   void connect();
   void connect_shaders();
+  void list_units();
   template <typename T>
   clocked::Link<T>& add_link(Channels<T>& links, const std::string& name);
   [[nodiscard]] clocked::Cache make_cache(const CacheSpec& spec);
@@ -67,10 +68,8 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   [[nodiscard]] bool is_still(Cycles now) const;
   void check_progress(Cycles now);
   [[nodiscard]] std::string describe_stuck(Cycles now) const;
-  template <typename F>
-  void for_each_unit(F&& f) const;
-
-  Channels<LineRequest> requests_;  ///< of each private cache
+  std::vector<clocked::Unit*> units_;  ///< in the order in which they tick
+  Channels<LineRequest> requests_;     ///< of each private cache
   Cycles still_since_ = kNever;
 };
 

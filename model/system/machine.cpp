@@ -278,6 +278,7 @@ bool Machine::run(const Monitor& monitor) {
   num_wakes_ = domain_.num_wakes();
   for (MachineObserver* observer : observers_) observer->finish(end_);
   finish_accounts(end_);
+  dram_->finish(end_);
   if (domain_.ran_dry()) {
     if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());
     check_conservation();

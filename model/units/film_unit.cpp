@@ -51,7 +51,7 @@ Cycles FilmUnit::act(Cycles now) {
   const bool finished = flow_.finished(now) && next == kNever && !cache_.has_pending();
   if (flushing_ || finished) return flush_next(now);
   stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
-  return next;
+  return std::min(next, flow_.next_notice(now));
 }
 
 void FilmUnit::accept_lines(Cycles now) {

@@ -40,8 +40,8 @@ class WorstCase {
 /// and whether another primary packet fits.
 ///
 /// What is asked for with a cycle is answered from registers: as it was at the end of the cycle
-/// before, whatever has changed in this one already. The source asks without, since it acts first
-/// in a cycle. Cycles never go back; without time they are all 0.
+/// before, whatever has changed in this one already. Cycles never go back; without time they are
+/// all 0, and the counts are asked for as they stand.
 class FlowControl {
  public:
   FlowControl(const FlowSpec& spec, const WorstCase& worst_case, std::uint64_t credits)
@@ -69,12 +69,15 @@ class FlowControl {
   [[nodiscard]] bool by_tile() const { return policy_ == FlowPolicy::kTile; }
   [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
   [[nodiscard]] bool admits(std::uint64_t reservation) const {
-    return policy_ != FlowPolicy::kCredits || reserved_ + reservation <= credits_;
+    return policy_ != FlowPolicy::kCredits || counts_.reserved + reservation <= credits_;
+  }
+  [[nodiscard]] bool admits(std::uint64_t reservation, Cycles now) const {
+    return policy_ != FlowPolicy::kCredits || seen(now).reserved + reservation <= credits_;
   }
   void admit(std::uint64_t rays, std::uint64_t reservation, Cycles now) {
     Counts& counts = change(now);
     counts.live += rays;
-    reserved_ += reservation;
+    counts.reserved += reservation;
     max_live_ = std::max(max_live_, counts.live);
   }
 
@@ -84,7 +87,7 @@ class FlowControl {
     Counts& counts = change(now);
     counts.live = counts.live + spawned - retired;
     max_live_ = std::max(max_live_, counts.live);
-    reserved_ = reserved_ + reserved_after - reserved_before;
+    counts.reserved = counts.reserved + reserved_after - reserved_before;
     if (counts.is_quiet()) {
       nudge(source_, now);
       nudge(regrouper_, now);
@@ -97,12 +100,14 @@ class FlowControl {
 
   /// Rays in the cells of the ray cache, which move only when others arrive or a sweep comes.
   void set_waiting(std::uint64_t waiting, Cycles now) {
+    if (counts_.waiting == waiting) return;
     Counts& counts = change(now);
     counts.waiting = waiting;
     if (counts.waiting_for_shader != 0 && counts.is_quiet()) nudge(shader_cache_, now);
   }
   /// The same in the cells of the shader cache, which are swept before those of the ray cache.
   void set_waiting_for_shader(std::uint64_t waiting, Cycles now) {
+    if (counts_.waiting_for_shader == waiting) return;
     change(now).waiting_for_shader = waiting;
   }
   [[nodiscard]] bool waits_for_shader(Cycles now) const {
@@ -113,6 +118,7 @@ class FlowControl {
 
   enum class Source : std::uint8_t { kIssuing, kTileIssued, kNoCredit, kExhausted };
   void set_source(Source state, Cycles now) {
+    if (counts_.source == state) return;
     Counts& counts = change(now);
     counts.source = state;
     if (state != Source::kIssuing && counts.is_quiet()) {
@@ -124,6 +130,13 @@ class FlowControl {
   [[nodiscard]] Source source() const { return counts_.source; }
   [[nodiscard]] Source source(Cycles now) const { return seen(now).source; }
   [[nodiscard]] std::uint64_t live() const { return counts_.live; }
+  [[nodiscard]] std::uint64_t live(Cycles now) const { return seen(now).live; }
+  /// When what has changed in cycle `now` can be seen, kNever if nothing has. Who goes to sleep in
+  /// that cycle must be awake then: it was woken for this cycle already, so that the wake-up for
+  /// the next one is lost.
+  [[nodiscard]] Cycles next_notice(Cycles now) const {
+    return changed_ == now ? now + kNotice : kNever;
+  }
   [[nodiscard]] std::uint64_t max_live() const { return max_live_; }
   [[nodiscard]] bool finished() const { return counts_.is_finished(); }
   [[nodiscard]] bool finished(Cycles now) const { return seen(now).is_finished(); }
@@ -132,6 +145,7 @@ class FlowControl {
   static constexpr Cycles kNotice = 1;  ///< from a change to the wake-up of who waits for it
   struct Counts {
     std::uint64_t live = 0;
+    std::uint64_t reserved = 0;
     std::uint64_t waiting = 0;
     std::uint64_t waiting_for_shader = 0;
     Source source = Source::kIssuing;
@@ -154,7 +168,6 @@ class FlowControl {
   Counts counts_;
   Counts before_;       ///< at the end of the cycle before changed_
   Cycles changed_ = 0;  ///< cycle of the last change
-  std::uint64_t reserved_ = 0;
   std::uint64_t max_live_ = 0;
   Inbox* source_ = nullptr;
   Inbox* regrouper_ = nullptr;

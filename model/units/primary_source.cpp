@@ -59,7 +59,7 @@ bool PrimarySource::prepare_packet(Cycles now) {
       ++stats_.num_tiles;
     }
     if (!order_.next_run(run)) {
-      if (flow_.by_tile() && flow_.live() != 0 && !order_.is_last()) {
+      if (flow_.by_tile() && flow_.live(now) != 0 && !order_.is_last()) {
         flow_.set_source(FlowControl::Source::kTileIssued, now);
         return false;
       }
@@ -85,12 +85,12 @@ Cycles PrimarySource::act(Cycles now) {
     stalls_.switch_to(flow_.source() == FlowControl::Source::kExhausted ? StallCause::kIdle
                                                                         : StallCause::kWaitingInput,
                       now);
-    return kNever;  // woken when the tile has finished
+    return flow_.next_notice(now);  // woken when the tile has finished
   }
-  if (!flow_.admits(reservation_)) {
+  if (!flow_.admits(reservation_, now)) {
     flow_.set_source(FlowControl::Source::kNoCredit, now);
     stalls_.switch_to(StallCause::kBlockedOutput, now);
-    return kNever;  // woken when rays have retired
+    return flow_.next_notice(now);  // woken when rays have retired
   }
   flow_.set_source(FlowControl::Source::kIssuing, now);
   if (out_packets->num_free(now) == 0) {

@@ -41,7 +41,7 @@ Cycles RayCacheUnit::act(Cycles now) {
   }
   stalls_.switch_to(sorter_->num_waiting() != 0 ? StallCause::kWaitingInput : StallCause::kIdle,
                     now);
-  return std::min(in_bundles->next_arrival(), next_time_out());
+  return std::min({in_bundles->next_arrival(), next_time_out(), flow_.next_notice(now)});
 }
 
 bool RayCacheUnit::send_departures(Cycles now) {

@@ -42,7 +42,7 @@ Cycles ShaderCacheUnit::act(Cycles now) {
   }
   stalls_.switch_to(sorter_.num_waiting() != 0 ? StallCause::kWaitingInput : StallCause::kIdle,
                     now);
-  return inputs_.next_arrival();
+  return std::min(inputs_.next_arrival(), flow_.next_notice(now));
 }
 
 bool ShaderCacheUnit::send_departures(Cycles now) {

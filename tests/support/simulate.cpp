@@ -15,6 +15,7 @@
 #include "config/read_config.h"
 #include "report/stats_json.h"
 #include "scene/load_gltf.h"
+#include "system/clocked_machine.h"
 #include "system/estimate_report.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
@@ -87,6 +88,8 @@ Outcome run_here(const Config& config, const PreparedScene& scene, bool in_step)
       outcome.complete = simulate_analytic(config, plan, scene, frame, stats);
     } else if (config.run.fidelity == Fidelity::kSampled) {
       outcome.complete = simulate_as.template operator()<SampledFrame>();
+    } else if (config.run.fidelity == Fidelity::kClocked) {
+      outcome.complete = simulate_as.template operator()<ClockedMachine>();
     } else {
       outcome.complete = simulate_as.template operator()<Machine>();
     }

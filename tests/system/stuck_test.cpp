@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <tuple>
 
 #include "support/scenes.h"
 #include "support/simulate.h"
@@ -24,16 +25,18 @@ void PrintTo(const Fault& fault, std::ostream* out) {
   *out << fault.name;
 }
 
-class Stuck : public testing::TestWithParam<Fault> {};
+class Stuck : public testing::TestWithParam<std::tuple<Fault, Fidelity>> {};
 
 TEST_P(Stuck, MachineNamesItsStuckUnits) {
   const TestScene scene(committed_scene("sponza"), {"image.width=16", "image.height=16"});
   Config config = scene.base();
-  GetParam().make(config);
+  const auto& [fault, fidelity] = GetParam();
+  fault.make(config);
+  config.run.fidelity = fidelity;
   const Outcome outcome = scene.run(config);
   EXPECT_FALSE(outcome.complete);
   EXPECT_NE(outcome.error.find("no more progress"), std::string::npos) << outcome.error;
-  for (const std::string& name : GetParam().named) {
+  for (const std::string& name : fault.named) {
     EXPECT_NE(outcome.error.find(name), std::string::npos) << name << ": " << outcome.error;
   }
   EXPECT_EQ(outcome.error.find('\n'), std::string::npos) << "more than one line";
@@ -41,17 +44,24 @@ TEST_P(Stuck, MachineNamesItsStuckUnits) {
 
 INSTANTIATE_TEST_SUITE_P(
     Faults, Stuck,
-    testing::Values(
-        Fault{"link", [](Config& c) { c.link.depth = 0; }, {"primary_source"}},
-        Fault{"packet_fifo", [](Config& c) { c.packet_fifo.depth = 0; }, {"ray_cache"}},
-        Fault{"node_cache", [](Config& c) { c.node_cache.mshrs = 0; }, {"traversal_unit0"}},
-        Fault{"triangle_cache",
-              [](Config& c) { c.triangle_cache.mshrs = 0; },
-              {"traversal_unit0", "intersection_unit0"}},
-        Fault{"attribute_cache", [](Config& c) { c.attribute_cache.mshrs = 0; }, {"shader_unit0"}},
-        Fault{"film_cache", [](Config& c) { c.film_cache.mshrs = 0; }, {"film"}},
-        Fault{"l2", [](Config& c) { c.l2.mshrs = 0; }, {"l2", "traversal_unit0"}}),
-    [](const auto& fault) { return std::string(fault.param.name); });
+    testing::Combine(
+        testing::Values(
+            Fault{"link", [](Config& c) { c.link.depth = 0; }, {"primary_source"}},
+            Fault{"packet_fifo", [](Config& c) { c.packet_fifo.depth = 0; }, {"ray_cache"}},
+            Fault{"node_cache", [](Config& c) { c.node_cache.mshrs = 0; }, {"traversal_unit0"}},
+            Fault{"triangle_cache",
+                  [](Config& c) { c.triangle_cache.mshrs = 0; },
+                  {"traversal_unit0", "intersection_unit0"}},
+            Fault{"attribute_cache",
+                  [](Config& c) { c.attribute_cache.mshrs = 0; },
+                  {"shader_unit0"}},
+            Fault{"film_cache", [](Config& c) { c.film_cache.mshrs = 0; }, {"film"}},
+            Fault{"l2", [](Config& c) { c.l2.mshrs = 0; }, {"l2", "traversal_unit0"}}),
+        testing::Values(Fidelity::kTimed, Fidelity::kClocked)),
+    [](const auto& machine) {
+      const bool clocked = std::get<Fidelity>(machine.param) == Fidelity::kClocked;
+      return std::get<Fault>(machine.param).name + std::string(clocked ? "_clocked" : "_timed");
+    });
 
 }  // namespace
 }  // namespace sheaf::test

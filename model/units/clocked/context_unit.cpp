@@ -8,12 +8,12 @@
 namespace sheaf::clocked {
 
 ContextUnit::ContextUnit(std::string name, const UnitSpec& spec, std::uint32_t packet_size)
-    : spec_(spec),
+    : Unit(std::move(name)),
+      spec_(spec),
       slots_per_step_((packet_size + spec.lanes - 1) / spec.lanes),
-      name_(std::move(name)),
       contexts_(spec.contexts) {}
 
-void ContextUnit::tick(Cycles now) {
+StallCause ContextUnit::act(Cycles now) {
   const int num_contexts = static_cast<int>(contexts_.size());
   accept(now);
   for (int i = 0; i < num_contexts; ++i) {
@@ -27,7 +27,7 @@ void ContextUnit::tick(Cycles now) {
     queue_.pop_front();
     issue(context, now);
   }
-  stalls_.switch_to(now < busy_until_ ? StallCause::kBusy : waiting_cause(), now);
+  return now < busy_until_ ? StallCause::kBusy : waiting_cause();
 }
 
 bool ContextUnit::any(State state) const {

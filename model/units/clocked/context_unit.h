@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "stats/stall_account.h"
 #include "units/clocked/cache.h"
+#include "units/clocked/unit.h"
 #include "units/multi_context_unit.h"
 
 namespace sheaf::clocked {
@@ -21,16 +21,9 @@ namespace sheaf::clocked {
 ///  2. lets the contexts that a full link held up try again, the lowest first (resume);
 ///  3. lets the contexts whose time has come go on, the lowest first (resume);
 ///  4. issues the step of the context that has queued longest, if the port is free (issue).
-class ContextUnit {
+class ContextUnit : public Unit {
  public:
-  virtual ~ContextUnit() = default;
-
-  void tick(Cycles now);
-
-  [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const PipelineStats& pipeline_stats() const { return pipeline_stats_; }
-  [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
-  void finish(Cycles end) { stalls_.finish(end); }
 
  protected:
   ContextUnit(std::string name, const UnitSpec& spec, std::uint32_t packet_size);
@@ -65,6 +58,7 @@ class ContextUnit {
   const std::uint32_t slots_per_step_;
 
  private:
+  StallCause act(Cycles now) final;
   enum class State : std::uint8_t { kFree, kWaiting, kQueued, kAwaiting, kParked, kBlocked };
   struct Context {
     State state = State::kFree;
@@ -77,14 +71,12 @@ class ContextUnit {
   [[nodiscard]] bool any(State state) const;
   [[nodiscard]] StallCause waiting_cause() const;
 
-  const std::string name_;
   std::vector<Context> contexts_;
   std::deque<int> queue_;  ///< for the issue port
   Cycles port_free_ = 0;
   Cycles busy_until_ = 0;
   Cycles lookups_ = 0;
   PipelineStats pipeline_stats_;
-  StallAccount stalls_;
 };
 
 }  // namespace sheaf::clocked

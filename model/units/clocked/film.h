@@ -8,8 +8,8 @@
 #include "base/object_pool.h"
 #include "image/film.h"
 #include "kdtree/memory_map.h"
-#include "stats/stall_account.h"
 #include "units/clocked/cache.h"
+#include "units/clocked/unit.h"
 #include "units/film_unit.h"
 #include "units/flow_control.h"
 
@@ -17,11 +17,11 @@ namespace sheaf::clocked {
 
 /// Adds contributions to the frame buffer, one a cycle; when the last ray has retired, writes the
 /// dirty lines back, one a cycle.
-class FilmUnit {
+class FilmUnit final : public Unit {
  public:
   FilmUnit(std::string name, Film& film, const MemoryMap& memory, ObjectPool<FilmBatch>& batches,
            FlowControl& flow, Cache cache)
-      : name_(std::move(name)),
+      : Unit(std::move(name)),
         film_(film),
         memory_(memory),
         batches_(batches),
@@ -30,23 +30,18 @@ class FilmUnit {
 
   Link<FilmBatch*>* in_batches = nullptr;
 
-  void tick(Cycles now) { stalls_.switch_to(act(now), now); }
   /// Everything has been added and written back.
   [[nodiscard]] bool is_done() const { return state_ == State::kDone; }
 
-  [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const FilmStats& stats() const { return stats_; }
   [[nodiscard]] const Cache& cache() const { return cache_; }
-  [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
-  void finish(Cycles end) { stalls_.finish(end); }
 
  private:
   enum class State : std::uint8_t { kAdding, kFlushing, kDone };
-  [[nodiscard]] StallCause act(Cycles now);
+  StallCause act(Cycles now) override;
   bool add_next(Cycles now);
   [[nodiscard]] StallCause flush_next(Cycles now);
 
-  const std::string name_;
   Film& film_;
   const MemoryMap& memory_;
   ObjectPool<FilmBatch>& batches_;
@@ -59,7 +54,6 @@ class FilmUnit {
   bool waits_for_mshr_ = false;
   std::vector<std::uint64_t> dirty_lines_;
   FilmStats stats_;
-  StallAccount stalls_;
 };
 
 }  // namespace sheaf::clocked

@@ -7,10 +7,6 @@
 
 namespace sheaf::clocked {
 
-void PacketArbiter::tick(Cycles now) {
-  stalls_.switch_to(act(now), now);
-}
-
 StallCause PacketArbiter::act(Cycles now) {
   while (in_free->has_arrived(now)) ++free_contexts_[in_free->read(now).unit];
   const bool primary = in_primary->has_arrived(now);

@@ -9,7 +9,7 @@ namespace sheaf::clocked {
 PrimarySource::PrimarySource(std::string name, const PrimarySourceSpec& spec,
                              const ImageSpec& image, const TileOrder& order, const Camera& camera,
                              PacketPool& packets, RayCounts& rays, FlowControl& flow)
-    : name_(std::move(name)),
+    : Unit(std::move(name)),
       spec_(spec),
       image_(image),
       order_(order),
@@ -18,15 +18,12 @@ PrimarySource::PrimarySource(std::string name, const PrimarySourceSpec& spec,
       rays_(rays),
       flow_(flow) {}
 
-void PrimarySource::tick(Cycles now) {
-  if (now >= next_packet_) stalls_.switch_to(act(now), now);
-}
-
 StallCause PrimarySource::act(Cycles now) {
+  if (now < next_packet_) return StallCause::kBusy;
   if (packet_ == nullptr && !prepare_packet(now)) {
     return order_.is_done() ? StallCause::kIdle : StallCause::kWaitingInput;
   }
-  if (!flow_.admits(reservation_)) {
+  if (!flow_.admits(reservation_, now)) {
     flow_.set_source(FlowControl::Source::kNoCredit, now);
     return StallCause::kBlockedOutput;
   }
@@ -57,7 +54,7 @@ bool PrimarySource::prepare_packet(Cycles now) {
     tile_begun_ = true;
     if (order_.next_run(run)) break;
     const bool last = order_.is_last();
-    if (flow_.by_tile() && flow_.live() != 0 && !last) {
+    if (flow_.by_tile() && flow_.live(now) != 0 && !last) {
       flow_.set_source(FlowControl::Source::kTileIssued, now);
       return false;
     }

@@ -4,10 +4,6 @@
 
 namespace sheaf::clocked {
 
-void RayCache::tick(Cycles now) {
-  stalls_.switch_to(act(now), now);
-}
-
 StallCause RayCache::act(Cycles now) {
   while (!departures_.empty() && out_packets->write(departures_.front(), now)) {
     departures_.erase(departures_.begin());

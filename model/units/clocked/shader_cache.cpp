@@ -6,11 +6,8 @@
 
 namespace sheaf::clocked {
 
-void ShaderCache::tick(Cycles now) {
-  if (now >= busy_until_) stalls_.switch_to(act(now), now);
-}
-
 StallCause ShaderCache::act(Cycles now) {
+  if (now < busy_until_) return StallCause::kBusy;
   while (!departures_.empty() && out_packets.write(departures_.front(), now)) {
     departures_.erase(departures_.begin());
   }

@@ -79,6 +79,15 @@ TEST(FlowControl, ShowsAChangeFromTheNextCycleOn) {
   EXPECT_EQ(flow.source(9), Source::kExhausted);
 }
 
+TEST(FlowControl, SaysWhenAChangeOfThisCycleCanBeSeen) {
+  FlowControl flow = flow_of(FlowPolicy::kTile, 0);
+  flow.admit(16, 0, 3);
+  EXPECT_EQ(flow.next_notice(3), 4U);
+  EXPECT_EQ(flow.next_notice(4), kNever);
+  flow.set_waiting(0, 5);  // no change
+  EXPECT_EQ(flow.next_notice(5), kNever);
+}
+
 TEST(FlowControl, IsQuietWhenRaysWaitInCellsOfEitherCache) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
   flow.admit(16, 0, 0);
