@@ -25,7 +25,7 @@ TEST(CounterList, ExplainsEverythingThatARunReports) {
            {"ray_cache.heuristic=none", "traversal.scheme=omni"},
            {"run.fidelity=sampled"},
            {"run.fidelity=analytic"},
-           {"traversal.scheme=interval", "flow.control=spill", "dram.model=HBM2-2000"},
+           {"flow.control=spill", "dram.model=HBM2-2000"},
            {"run.fidelity=functional", "render.recursion_level=0"}}) {
     std::vector<std::string> settings = small;
     settings.insert(settings.end(), choice.begin(), choice.end());
