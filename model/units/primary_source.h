@@ -43,7 +43,7 @@ class PrimarySource final : public sc_core::sc_module, public SteppingAgent {
   PrimarySource(const sc_core::sc_module_name& name, const PrimarySourceSpec& spec,
                 const ImageSpec& image, const TileOrder& order, const Camera& camera,
                 PacketPool& packets, RayCounts& rays, FlowControl& flow, ClockDomain& domain,
-                TileObserver* observer);
+                TileObserver* observer = nullptr);
 
   sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
 
