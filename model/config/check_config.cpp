@@ -77,7 +77,6 @@ void check_cache(const std::string& name, const Spec& spec) {
 }
 
 void check_private_cache(const std::string& name, const CacheSpec& spec, const L2Spec& l2) {
-  check_power_of_two(name + ".line", spec.line, format_bytes(spec.line));
   if (spec.mode == CacheMode::kPerfect) return;
   check_cache(name, spec);
   if (l2.mode == CacheMode::kNormal && spec.line > l2.line) {

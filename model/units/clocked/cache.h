@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,9 @@ class Cache {
   Cache(const CacheSpec& spec, std::uint16_t requester, Link<LineRequest>& to_l2,
         Link<LineResponse>& from_l2);
 
-  [[nodiscard]] std::uint64_t line_of(Address address) const { return address / spec_.line; }
+  [[nodiscard]] std::uint64_t line_of(Address address) const {
+    return address >> std::countr_zero(spec_.line);
+  }
   [[nodiscard]] Cycles hit_latency() const { return spec_.hit_latency; }
 
   /// `dirty`: to be modified, now or once it has come.

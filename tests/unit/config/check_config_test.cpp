@@ -183,13 +183,5 @@ TEST(CheckConfig, HeatMapsAreKnownCountersNamedOnce) {
             "image.heat_maps: 'rays' stands there twice");
 }
 
-TEST(CheckConfig, PerfectCachesHaveLinesTheyCountToo) {
-  EXPECT_EQ(verdict([](Config& c) {
-              c.node_cache.mode = CacheMode::kPerfect;
-              c.node_cache.line = 48;
-            }),
-            "node_cache.line = 48B must be a power of two");
-}
-
 }  // namespace
 }  // namespace sheaf
