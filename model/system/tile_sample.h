@@ -16,7 +16,7 @@ class TileSample {
   static constexpr std::uint32_t kStretch = 4;
   /// Stretches that are drawn at least, if there are so many: fewer say too little about how much
   /// they differ.
-  static constexpr std::uint32_t kFewest = 8;
+  static constexpr std::uint32_t kFewest = 16;
 
   /// `warm_up`: tiles before each stretch that are simulated and not counted, so that the machine
   /// is as full as it would be.

@@ -14,9 +14,9 @@ namespace sheaf::test {
 namespace {
 
 TEST(TileSample, DrawsEachStretchOnce) {
-  const TileSample sample(103, 0.5, 1, 0);
+  const TileSample sample(103, 0.7, 1, 0);
   EXPECT_EQ(sample.num_stretches(), 26U);
-  EXPECT_EQ(sample.drawn().size(), 13U);
+  EXPECT_EQ(sample.drawn().size(), 19U);
   EXPECT_TRUE(std::ranges::is_sorted(sample.drawn()));
   EXPECT_EQ(std::ranges::adjacent_find(sample.drawn()), sample.drawn().end());
   EXPECT_LT(sample.drawn().back(), 26U);
@@ -25,9 +25,9 @@ TEST(TileSample, DrawsEachStretchOnce) {
 TEST(TileSample, DrawsEveryStretchEquallyOften) {
   std::vector<int> times(25, 0);
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    for (const std::uint32_t stretch : TileSample(100, 0.4, seed, 0).drawn()) ++times[stretch];
+    for (const std::uint32_t stretch : TileSample(100, 0.8, seed, 0).drawn()) ++times[stretch];
   }
-  for (const int n : times) EXPECT_NEAR(n, 800, 4 * std::sqrt(2000 * 0.4 * 0.6));
+  for (const int n : times) EXPECT_NEAR(n, 1600, 4 * std::sqrt(2000 * 0.8 * 0.2));
 }
 
 TEST(TileSample, VisitsWhatItDrewWithWarmUpAndOneTileBehind) {
@@ -110,13 +110,18 @@ TEST_P(Sampled, GivesTheSameTwiceAndAnotherForAnotherSeed) {
 }
 
 // Of 200 intervals that cover the truth with probability 0.95 fewer than 183 do once in 120 times.
+// With credits those of p_t are known to be too narrow (decision 0046): nine of ten do, so of 200
+// fewer than 169 once in 120 times.
 TEST_P(Sampled, IntervalsCoverTheTruthAsOftenAsTheyClaim) {
   constexpr int kSeeds = 200;
-  constexpr int kFewest = 183;
+  const bool credits = !GetParam().empty();
+  const auto fewest = [&](const std::string& name) {
+    return credits && name == "p_t_secondary" ? 169 : 183;
+  };
   const auto truth = truth_of(scene.run());
   std::map<std::string, int> covered;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const Outcome sampled = scene.run({"run.fidelity=sampled", "run.sample_share=0.25",
+    const Outcome sampled = scene.run({"run.fidelity=sampled", "run.sample_share=0.33",
                                        "run.sample_seed=" + std::to_string(seed)});
     ASSERT_EQ(sampled.error, "");
     for (const auto& [name, value] : truth) {
@@ -128,7 +133,7 @@ TEST_P(Sampled, IntervalsCoverTheTruthAsOftenAsTheyClaim) {
   }
   for (const auto& [name, times] : covered) {
     RecordProperty(name, times);
-    EXPECT_GE(times, kFewest) << name;
+    EXPECT_GE(times, fewest(name)) << name;
   }
 }
 
