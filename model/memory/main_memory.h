@@ -33,7 +33,8 @@ class MainMemory : public sc_core::sc_module {
 
   tlm_utils::simple_target_socket<MainMemory> from_cache;
 
-  /// The run has ended before core cycle `end`: goes on to there with what no request has asked for.
+  /// The run has ended before core cycle `end`: goes on to there with what no request has asked
+  /// for.
   virtual void finish(Cycles /*end*/) {}
 
   /// In core cycles, as of core cycle `end`. With several data buses, bus_busy_cycles is their

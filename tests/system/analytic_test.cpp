@@ -37,7 +37,9 @@ TEST_P(Analytic, BoundsOfIssuePortsAreBelowTheTimedFrame) {
   for (const char* bound : {"primary_source", "ray_cache", "traversal_issue", "intersection_issue",
                             "shader_issue", "film", "l2_banks", "dram_bus"}) {
     EXPECT_LT(analytic.count(std::string("bound.") + bound), timed.count("system.cycles")) << bound;
-    EXPECT_GT(analytic.count(std::string("bound.") + bound), 0U) << bound;
+    const bool unused =
+        std::string(bound) == "dram_bus" && timed.count("system.dram.num_reads") == 0;
+    EXPECT_EQ(analytic.count(std::string("bound.") + bound) == 0, unused) << bound;
   }
 }
 
@@ -51,21 +53,21 @@ TEST_P(Analytic, EstimatesWithinWhatIsDocumented) {
   EXPECT_GT(cycles, 0.5);
   EXPECT_LT(cycles, 1.5);
   const double dram =
-      value(analytic, "estimate.dram_bytes.value") /
-      (value(timed, "system.dram.bytes_read") + value(timed, "system.dram.bytes_written"));
-  EXPECT_NEAR(dram, 1.0, 0.05);
+      value(timed, "system.dram.bytes_read") + value(timed, "system.dram.bytes_written");
+  EXPECT_NEAR(value(analytic, "estimate.dram_bytes.value"), dram, 0.05 * dram);
 }
 
-INSTANTIATE_TEST_SUITE_P(Machines, Analytic,
-                         testing::Values(Settings{}, Settings{"flow.control=credits"},
-                                         Settings{"dram.model=DDR4-2400", "l2.sectors=2"},
-                                         Settings{"film_cache.write_policy=through", "l2.mode=perfect"}));
+INSTANTIATE_TEST_SUITE_P(
+    Machines, Analytic,
+    testing::Values(Settings{}, Settings{"flow.control=credits"},
+                    Settings{"dram.model=DDR4-2400", "l2.line=128", "l2.sectors=2"},
+                    Settings{"film_cache.write_policy=through", "l2.mode=perfect"}));
 
 // One unit of each kind and packets in the same order: the accesses of the timed machine, one by
 // one, are those that the model looks up.
 TEST(AnalyticAccesses, AreThoseOfTheTimedMachine) {
   const TestScene scene(
-      committed_scene("fairy"),
+      committed_scene("sponza"),
       {"image.width=48", "image.height=32", "traversal_unit.count=1", "intersection_unit.count=1",
        "traversal_unit.contexts=1", "ray_cache.heuristic=none"});
   const Outcome timed = scene.run();

@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"l2.mode=perfect", "l2.hit_latency=1"},
                     Settings{"l2.mode=absent", "dram.latency=1000", "flow.control=credits"},
                     Settings{"dram.latency=1", "dram.bytes_per_cycle=1"},
-                    Settings{"film.format=exact", "film_cache.line=16", "film_cache.mshrs=1"}));
+                    Settings{"film_cache.line=16", "film_cache.mshrs=1"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Dram, ClockedMachines,

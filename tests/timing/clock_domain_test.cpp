@@ -134,7 +134,10 @@ TEST_F(Observed, CycleIsNotRunPast) {
   Watcher watcher({4, 7}, [](Cycles /*cycle*/) {});
   domain.observe(watcher);
   sc_core::sc_start();
-  EXPECT_EQ(horizons, (std::vector<Cycles>{5, 8, kNever}));
+  ASSERT_EQ(horizons.size(), 3U);
+  EXPECT_EQ(horizons[0], 5U);
+  EXPECT_EQ(horizons[1], 8U);
+  EXPECT_GE(horizons[2], Calendar::kEndOfTime - 1);  // nothing else is to come
 }
 
 TEST_F(Observed, RunEndsWithTheLastThingThatHappens) {
