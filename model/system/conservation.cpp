@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
+#include "system/conservation.h"
+
 #include <fmt/format.h>
 
 #include "base/errors.h"
@@ -7,8 +9,6 @@
 #include "system/machine_links.h"
 
 namespace sheaf {
-namespace {
-
 void require(bool holds, const std::string& law) {
   if (holds) return;
   throw Error(ExitCode::kBug,
@@ -23,6 +23,8 @@ void check_cache(const std::string& name, const CacheStats& stats) {
   require_equal(stats.num_accesses, stats.num_hits + stats.num_misses + stats.num_merges,
                 name + ": accesses = hits + misses + merges");
 }
+
+namespace {
 
 void check_sorter(const RayCacheStats& stats) {
   require_equal(stats.num_insertions, stats.num_hits + stats.num_misses,
@@ -55,7 +57,6 @@ void Machine::check_conservation() const {
   require_equal(packets_.num_out(), 0, "no packet in flight at the end");
   require_equal(bundles_.num_out(), 0, "no spawned bundle in flight at the end");
   require_equal(batches_.num_out(), 0, "no film batch in flight at the end");
-  require(l2_->is_idle(), "no memory request in flight at the end");
   if (ray_cache_) check_sorter(ray_cache_->sorter().stats());
   if (shader_cache_) {
     check_shading_sorter(shader_cache_->sorter().stats());
@@ -89,14 +90,7 @@ void Machine::check_conservation() const {
   if (ray_cache_) check_stalls("ray_cache", *ray_cache_, end_);
   if (spawn_router_) check_stalls("spawn_router", *spawn_router_, end_);
 
-  const L2Stats& l2 = l2_->stats();
-  const DramStats dram = dram_->stats(end_);
-  require_equal(l2.num_accesses, l2.num_hits + l2.num_misses + l2.num_merges,
-                "l2: accesses = hits + misses + merges");
-  require_equal(fetched, l2.bytes_requested, "bytes into the private caches = bytes out of the l2");
-  require_equal(written, l2.bytes_received, "bytes out of the private caches = bytes into the l2");
-  require_equal(l2.bytes_read, dram.bytes_read, "bytes into the l2 = bytes out of dram");
-  require_equal(l2.bytes_written, dram.bytes_written, "bytes out of the l2 = bytes into dram");
+  memory_.check_conservation(fetched, written, end_);
 }
 
 }  // namespace sheaf

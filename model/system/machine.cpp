@@ -7,21 +7,15 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "memory/banked_dram.h"
-#include "memory/fixed_dram.h"
 #include "system/machine_links.h"
 #include "system/pipeline_parts.h"
 
 namespace sheaf {
 namespace {
 
-// Links that another rule keeps from filling up: credits for contexts, MSHRs, or flow control for
-// spawned rays.
+// Links that another rule keeps from filling up: credits for contexts, or flow control for spawned
+// rays.
 constexpr std::size_t kNeverFull = PacketChannel::kUnbounded;
-
-sc_core::sc_time period_of(double frequency) {
-  return {1.0 / frequency, sc_core::SC_SEC};
-}
 
 // From the fastest path through link, unit and link that nothing holds up.
 AnswerTimes answer_times(const Config& config) {
@@ -45,9 +39,9 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
       shader_(make_shader(config, scene.scene, frame)),
       hooks_(hooks),
       flow_(make_flow_control(config, plan, scene.scene)),
-      domain_("clock_domain", period_of(config.clock.frequency)),
+      domain_("clock_domain", clock_period(config)),
+      memory_(config, domain_),
       links_(std::make_unique<Links>()) {
-  build_memory();
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
@@ -55,37 +49,6 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
 }
 
 Machine::~Machine() = default;
-
-void Machine::build_memory() {
-  links_->caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
-      "caches_to_l2",
-      TimedChannel<LineRequest>::Spec{
-          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
-  l2_ = std::make_unique<L2Cache>("l2", config_.l2, domain_);
-  if (config_.dram.model == DramModel::kFixed) {
-    dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
-  } else {
-    auto banked = std::make_unique<BankedDram>("dram", resolve_dram(config_.dram),
-                                               config_.clock.frequency, domain_);
-    l2_->expect_answers_from(banked->agent());
-    dram_ = std::move(banked);
-  }
-  l2_->in_requests(*links_->caches_to_l2);
-  l2_->to_dram.bind(dram_->from_cache);
-}
-
-// A private cache's number at the L2, with the link that brings its lines.
-std::uint16_t Machine::add_requester(const CacheSpec& cache) {
-  auto& links = links_->l2_to_caches;
-  const auto number = static_cast<std::uint16_t>(links.size());
-  const Cycles transfer = (cache.line + config_.link.memory_width - 1) / config_.link.memory_width;
-  links.push_back(std::make_unique<TimedChannel<LineResponse>>(
-      fmt::format("l2_to_cache_{}", number).c_str(),
-      TimedChannel<LineResponse>::Spec{
-          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = transfer}));
-  l2_->out_responses(*links.back());
-  return number;
-}
 
 void Machine::build_units() {
   const int packet_size = static_cast<int>(config_.packet.size);
@@ -97,7 +60,7 @@ void Machine::build_units() {
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
                         packet_size);
-  TimedOut<LineRequest>& memory = *links_->caches_to_l2;
+  TimedOut<LineRequest>& memory = memory_.requests();
 
   primary_source_ = std::make_unique<PrimarySource>("primary_source", config_.primary_source,
                                                     config_.image, order, scene_.scene.camera,
@@ -106,42 +69,41 @@ void Machine::build_units() {
                                                     config_.traversal_unit.count,
                                                     config_.traversal_unit.contexts, domain_);
   for (std::uint32_t i = 0; i < config_.traversal_unit.count; ++i) {
-    const std::uint16_t requester = add_requester(config_.node_cache);
+    const std::uint16_t requester = memory_.add_requester(config_.node_cache);
     traversal_units_.push_back(std::make_unique<TraversalUnit>(
         fmt::format("traversal_unit{}", i).c_str(), config_.traversal_unit, packet_size,
         config_.node_cache, traced, times, &frame_.heat, domain_, static_cast<std::uint16_t>(i),
         memory, requester));
-    traversal_units_.back()->in_lines(*links_->l2_to_caches.back());
+    traversal_units_.back()->in_lines(memory_.lines(requester));
   }
   for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
-    const std::uint16_t requester = add_requester(config_.triangle_cache);
+    const std::uint16_t requester = memory_.add_requester(config_.triangle_cache);
     intersection_units_.push_back(std::make_unique<IntersectionUnit>(
         fmt::format("intersection_unit{}", i).c_str(), config_.intersection_unit, packet_size,
         config_.triangle_cache, traced, times, domain_, memory, requester));
-    intersection_units_.back()->in_lines(*links_->l2_to_caches.back());
+    intersection_units_.back()->in_lines(memory_.lines(requester));
   }
   for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
-    const std::uint16_t attributes = add_requester(config_.attribute_cache);
-    auto& attribute_lines = *links_->l2_to_caches.back();
+    const std::uint16_t attributes = memory_.add_requester(config_.attribute_cache);
     const std::uint16_t textures =
-        plan_.texture_cache ? add_requester(config_.texture_cache) : attributes;
+        plan_.texture_cache ? memory_.add_requester(config_.texture_cache) : attributes;
     shader_units_.push_back(std::make_unique<ShaderUnit>(
         fmt::format("shader_unit{}", i).c_str(), config_.shader_unit, packet_size,
         config_.attribute_cache, plan_.texture_cache ? &config_.texture_cache : nullptr, shaded,
         domain_, memory, attributes, textures));
-    shader_units_.back()->in_attribute_lines(attribute_lines);
+    shader_units_.back()->in_attribute_lines(memory_.lines(attributes));
     if (plan_.texture_cache) {
-      shader_units_.back()->in_texture_lines(*links_->l2_to_caches.back());
+      shader_units_.back()->in_texture_lines(memory_.lines(textures));
     }
   }
   if (plan_.shader_cache) {
     shader_cache_ = std::make_unique<ShaderCacheUnit>("shader_cache", config_.shader_cache,
                                                       scene_.scene, packets_, flow_, domain_);
   }
-  film_ =
-      std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
-                                 flow_, domain_, memory, add_requester(config_.film_cache));
-  film_->in_lines(*links_->l2_to_caches.back());
+  const std::uint16_t film = memory_.add_requester(config_.film_cache);
+  film_ = std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory,
+                                     batches_, flow_, domain_, memory, film);
+  film_->in_lines(memory_.lines(film));
 }
 
 void Machine::build_regrouper() {
@@ -296,7 +258,7 @@ std::string Machine::describe_stuck() const {
   add(ray_cache_.get());
   add(spawn_router_.get());
   add(film_.get());
-  add(l2_.get());
+  add(&memory_.l2());
   if (links_->packet_fifo && links_->packet_fifo->size() != 0) {
     text += fmt::format("; packet_fifo: {} packets", links_->packet_fifo->size());
   }

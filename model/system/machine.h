@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "channels/clock_domain.h"
-#include "memory/l2_cache.h"
-#include "memory/main_memory.h"
 #include "stats/report_tree.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
+#include "system/memory_system.h"
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
 #include "units/film_unit.h"
@@ -53,7 +52,6 @@ class Machine {
 
  private:
   struct Links;
-  void build_memory();
   void build_units();
   void build_regrouper();
   void connect();
@@ -62,7 +60,6 @@ class Machine {
   void check_conservation() const;
   [[nodiscard]] std::string describe_stuck() const;
   void finish_accounts(Cycles end);
-  [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
   void report_units(StatsTree& stats) const;
   void report_memory(StatsTree& stats) const;
   void report_links(StatsTree& stats) const;
@@ -78,6 +75,7 @@ class Machine {
   const RunHooks hooks_;
   FlowControl flow_;
   ClockDomain domain_;
+  MemorySystem memory_;
   std::unique_ptr<Links> links_;
   std::vector<std::unique_ptr<TraversalUnit>> traversal_units_;
   std::vector<std::unique_ptr<IntersectionUnit>> intersection_units_;
@@ -88,8 +86,6 @@ class Machine {
   std::unique_ptr<SpawnRouter> spawn_router_;
   std::unique_ptr<ShaderCacheUnit> shader_cache_;
   std::unique_ptr<FilmUnit> film_;
-  std::unique_ptr<L2Cache> l2_;
-  std::unique_ptr<MainMemory> dram_;
   Cycles end_ = 0;
   bool complete_ = false;
 };

@@ -25,8 +25,6 @@ struct Machine::Links {
   Channels<RayPacket*> shader_cache_to_shader;     ///< one per shader unit
   std::unique_ptr<TimedChannel<FilmBatch*>> shader_to_film;
   std::unique_ptr<TimedChannel<SpawnBundle*>> spawned_rays;
-  std::unique_ptr<TimedChannel<LineRequest>> caches_to_l2;
-  Channels<LineResponse> l2_to_caches;  ///< one per requester
 };
 
 }  // namespace sheaf
