@@ -68,6 +68,12 @@ void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
   declare_cache(*replay, options);
   replay->add_option("--scene", options.scene,
                      "Rays: the scene it was recorded from, if it is no longer where it was");
+  replay
+      ->add_option("--mode", options.mode,
+                   "Memory: elastic (an access waits for those it depends on) or fixed (it comes "
+                   "in its recorded cycle)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"elastic", "fixed"}));
   replay->add_option("--out", options.out, "Folder for the results (default result/replay)");
   replay->add_flag("--quiet", options.quiet, "Print no summary");
   declare_parent(*replay, options);
@@ -77,6 +83,7 @@ void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
           "packet\n"
           "size, traversal scheme and memory, and give the counters of a live run; no picture is "
           "made.\n"
+          "Memory traces replay on any caches, L2 and DRAM, without the scene.\n"
           "Example: sheaf replay result/sponza/rays.trace --set ray_cache.heuristic=mdir(96)\n\n") +
       kFooter);
 }

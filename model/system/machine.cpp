@@ -46,6 +46,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
   if (plan_.secondary_rays) build_regrouper();
   connect();
   flow_.declare_links();
+  if (hooks_.memory != nullptr) record_memory(*hooks_.memory);
 }
 
 Machine::~Machine() = default;

@@ -56,6 +56,7 @@ class Machine {
   void build_regrouper();
   void connect();
   void connect_shaders();
+  void record_memory(MemoryRecorder& recorder);
   void connect_shader_cache();
   void check_conservation() const;
   [[nodiscard]] std::string describe_stuck() const;

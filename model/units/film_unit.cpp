@@ -46,6 +46,10 @@ Cycles FilmUnit::act(Cycles now) {
     position_ = 0;
     next_line_ = 0;
     ++stats_.num_batches;
+    if (recorder_ != nullptr) {
+      const AccessCause cause = recorder_->recorder().arrive_at_film();
+      recorder_->begin(0, cause, cause.sent + link_latency_, now);
+    }
   }
   const Cycles next_line = in_lines->next_arrival();
   if (batch_ != nullptr) {
@@ -75,7 +79,10 @@ bool FilmUnit::add_next(Cycles now) {
   const PixelContribution& contribution = (*batch_)[position_];
   const Address first = memory_.pixel(contribution.pixel);
   const std::uint64_t last_line = cache_.line_of(first + film_.bytes_per_pixel() - 1);
-  if (next_line_ == 0) next_line_ = cache_.line_of(first);
+  if (next_line_ == 0) {
+    next_line_ = cache_.line_of(first);
+    if (recorder_ != nullptr) record_addition(first, now);
+  }
   for (; next_line_ <= last_line; ++next_line_) {
     if (cache_.modify(next_line_, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
       waits_for_mshr_ = true;
@@ -89,8 +96,18 @@ bool FilmUnit::add_next(Cycles now) {
     batch_->clear();
     batches_.release(batch_);
     batch_ = nullptr;
+    if (recorder_ != nullptr) recorder_->end(0, now + 1);
   }
   return true;
+}
+
+void FilmUnit::record_addition(Address pixel, Cycles now) {
+  const std::uint32_t operation = recorder_->operation(0, [&] {
+    return MemoryOperation{.kind = DataKind::kPixel,
+                           .bytes = static_cast<std::uint32_t>(film_.bytes_per_pixel()),
+                           .write = true};
+  });
+  recorder_->step(0, operation, pixel, position_ + 1 == batch_->size(), now);
 }
 
 Cycles FilmUnit::flush_next(Cycles now) {

@@ -13,6 +13,7 @@ namespace sheaf {
 struct LineFetch {
   std::uint32_t next = 0;     ///< lines before this one have been asked for
   std::uint32_t pending = 0;  ///< of those, still on their way
+  bool begun = false;         ///< a look-up has been made
 };
 
 /// Steps of a unit's contexts that need several lines of one private cache.
@@ -32,6 +33,7 @@ class LineFetcher {
                 Cycles now) {
     LineFetch& progress = progress_[static_cast<std::size_t>(context)];
     Outcome outcome;
+    progress.begun = true;
     while (progress.next < num_lines) {
       ++outcome.lookups;
       const auto result = cache_.read(line(progress.next), kind, context, now);
@@ -42,6 +44,11 @@ class LineFetcher {
     outcome.complete = progress.next == num_lines && progress.pending == 0;
     if (outcome.complete) progress = {};
     return outcome;
+  }
+
+  /// Whether the context's step has been issued before and still misses lines.
+  [[nodiscard]] bool has_begun(int context) const {
+    return progress_[static_cast<std::size_t>(context)].begun;
   }
 
   /// Takes an arrived line in; calls ready(context) for each context that may be issued again.

@@ -40,9 +40,9 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 /// next. All it writes carries its own time.
 ///
 /// Derived provides: accept_inputs(now), ready(context, now) for a context whose time has come,
-/// issue(context, now), earliest_input(), and step_if_hit(context), which does what ready() and
-/// issue() would do for a context whose step is done and whose next one finds all its lines, and
-/// nothing in any other case; it calls the protected members below.
+/// issue(context, now), earliest_input(), and step_if_hit(context, now), which does what ready()
+/// and issue() would do for a context whose step is done and whose next one finds all its lines,
+/// and nothing in any other case; it calls the protected members below.
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
@@ -88,6 +88,14 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
         slots_per_step_((static_cast<std::uint32_t>(packet_size) + spec.lanes - 1) / spec.lanes) {
     inbox_.bind(domain, domain.add(*this));
     free_ = spec.contexts == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << spec.contexts) - 1;
+  }
+
+  /// What the issue port is taken for by a step of so many slots.
+  [[nodiscard]] std::uint32_t port_cycles(std::uint32_t slots) const {
+    return static_cast<std::uint32_t>(slots * spec_.initiation_interval);
+  }
+  [[nodiscard]] std::uint32_t step_latency() const {
+    return static_cast<std::uint32_t>(spec_.latency);
   }
 
   // Contexts, held from take_context() until free_context().
@@ -194,7 +202,7 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
       const Cycles due = agenda_.next();
       const Cycles now = std::max(due, port_free_);
       if (now >= until) return;
-      const QuickStep step = self.step_if_hit(agenda_.first());
+      const QuickStep step = self.step_if_hit(agenda_.first(), now);
       if (!step.taken) return;
       account(due);
       occupy_for(agenda_.pop(), step.port_cycles, step.latency, now);

@@ -10,6 +10,7 @@
 #include "scene/tile_order.h"
 #include "stats/counters.h"
 #include "stats/stall_account.h"
+#include "tracefile/memory_recorder.h"
 #include "traversal/packet_pool.h"
 #include "units/flow_control.h"
 #include "units/ray_counts.h"
@@ -40,6 +41,12 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Packets carry their cause; they reach a traversal unit `way` later at the earliest.
+  void record_to(MemoryRecorder& recorder, Cycles way) {
+    recorder_ = &recorder;
+    way_ = way;
+  }
+
   [[nodiscard]] const PrimarySourceStats& stats() const { return stats_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
@@ -52,6 +59,7 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
   void end_of_elaboration() override;
   Cycles act(Cycles now);
   bool prepare_packet(Cycles now);
+  void explain(const AccessCause& cause, Cycles now);
 
   const PrimarySourceSpec spec_;
   const ImageSpec image_;
@@ -68,6 +76,11 @@ class PrimarySource final : public sc_core::sc_module, public Agent {
   bool tile_begun_ = false;
   PrimarySourceStats stats_;
   StallAccount stalls_;
+  MemoryRecorder* recorder_ = nullptr;
+  Cycles way_ = 0;
+  AccessCause cause_;      ///< of the packets made at the moment
+  Cycles unhindered_ = 0;  ///< when the next could leave if the link were never full
+  bool had_no_credit_ = false;
 };
 
 }  // namespace sheaf

@@ -73,9 +73,11 @@ bool RayCacheUnit::insert_rays(Cycles now) {
     if (bundle_ == nullptr) {
       if (!in_bundles->has_arrived(now)) break;
       bundle_ = in_bundles->read(now);
+      arrived_ = bundle_->cause;
       position_ = 0;
     }
     sorter_->insert(bundle_->rays[position_], now, departures_);
+    explain_departures(arrived_, now);
     worked = true;
     --room;
     if (++position_ == bundle_->rays.size()) {
@@ -90,6 +92,7 @@ bool RayCacheUnit::insert_rays(Cycles now) {
 bool RayCacheUnit::time_out(Cycles now) {
   if (next_time_out() > now) return false;
   sorter_->time_out(now - spec_.timeout, now, departures_);
+  explain_departures(arrived_, now);
   return true;
 }
 
@@ -104,7 +107,16 @@ bool RayCacheUnit::sweep(Cycles now) {
   if (sorter_->num_waiting() == 0 || !flow_.is_quiet() || flow_.waits_for_shader()) return false;
   if (flow_.source() == FlowControl::Source::kIssuing) return false;
   sorter_->sweep(sweep_reason(), now, departures_);
+  if (recorder_ != nullptr) explain_departures(recorder_->begin_epoch(now), now);
   return true;
+}
+
+void RayCacheUnit::explain_departures(const AccessCause& cause, Cycles now) {
+  if (recorder_ == nullptr) return;
+  for (RayPacket* packet : departures_) {
+    packet->cause = cause;
+    packet->cause.sent = now + way_;
+  }
 }
 
 Departure RayCacheUnit::sweep_reason() const {

@@ -42,7 +42,7 @@ Cycles ShaderCacheUnit::act(Cycles now) {
     return kNever;  // woken when a shader unit has room
   }
   if (now < busy_until_) return busy_until_;
-  const bool worked = accept_packet(now) || sweep();
+  const bool worked = accept_packet(now) || sweep(now);
   flow_.set_waiting_for_shader(sorter_.num_waiting());
   if (worked) {
     stalls_.switch_to(StallCause::kBusy, now);
@@ -68,16 +68,27 @@ bool ShaderCacheUnit::accept_packet(Cycles now) {
   if (!inputs_.read(packet, now)) return false;
   const auto rays = static_cast<Cycles>(std::popcount(packet->active));
   busy_until_ = now + (rays + spec_.rays_per_cycle - 1) / spec_.rays_per_cycle;
+  const AccessCause cause = packet->cause;
   sorter_.insert(packet, departures_);
+  explain_departures(cause, now);
   return true;
 }
 
-bool ShaderCacheUnit::sweep() {
+bool ShaderCacheUnit::sweep(Cycles now) {
   flow_.set_waiting_for_shader(sorter_.num_waiting());
   if (sorter_.num_waiting() == 0 || !flow_.is_quiet()) return false;
   if (flow_.source() == FlowControl::Source::kIssuing) return false;
   sorter_.sweep(departures_);
+  if (recorder_ != nullptr) explain_departures(recorder_->begin_epoch(now), now);
   return true;
+}
+
+void ShaderCacheUnit::explain_departures(const AccessCause& cause, Cycles now) {
+  if (recorder_ == nullptr) return;
+  for (RayPacket* packet : departures_) {
+    packet->cause = cause;
+    packet->cause.sent = now;
+  }
 }
 
 std::string ShaderCacheUnit::stuck_reason() const {

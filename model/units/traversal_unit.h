@@ -6,6 +6,7 @@
 
 #include "kdtree/kd_tree.h"
 #include "kdtree/memory_map.h"
+#include "tracefile/memory_recorder.h"
 #include "traversal/trace.h"
 #include "units/line_fetcher.h"
 #include "units/link_choice.h"
@@ -63,6 +64,9 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Has all its steps taken down.
+  void record_to(StreamRecorder& recorder) { recorder_ = &recorder; }
+
  private:
   friend class MultiContextUnit<TraversalUnit>;
   enum class Phase : std::uint8_t {
@@ -89,7 +93,8 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   void ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  QuickStep step_if_hit(int context);
+  QuickStep step_if_hit(int context, Cycles now);
+  void record_step(int context, Cycles now);
   void begin_step(int context, Cycles now);
   void send_job(int context, Cycles now);
   void send_packet(int context, Cycles now);
@@ -108,6 +113,7 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   Lookahead lines_ahead_;
   RoundRobin<LeafJob> jobs_;
   RoundRobin<RayPacket*> packets_;
+  StreamRecorder* recorder_ = nullptr;
 };
 
 }  // namespace sheaf
