@@ -37,7 +37,7 @@ ReplayMachine::ReplayMachine(const Config& config, TraceReader& reader,
       metadata_(metadata),
       domain_("clock_domain", clock_period(config)),
       memory_(config, domain_),
-      schedule_(metadata.memory, errors_) {
+      schedule_(metadata.memory, errors_, domain_) {
   build(reader, mode);
 }
 
@@ -59,21 +59,23 @@ void ReplayMachine::build(TraceReader& reader, ReplayMode mode) {
           std::make_unique<FixedUnit>(name.c_str(), layout, std::move(records), errors_, domain_));
       add_caches(i, *fixed_.back());
     } else {
-      elastic_.push_back(std::make_unique<ElasticUnit>(name.c_str(), layout, i, std::move(records),
-                                                       schedule_, domain_));
+      elastic_.push_back(
+          std::make_unique<ElasticUnit>(name.c_str(), layout, i, schedule_, domain_));
+      schedule_.add(*elastic_.back(), std::move(records));
       add_caches(i, *elastic_.back());
     }
   }
   // Whoever is done may let a chain of any other begin, or answer it, a cycle later.
   for (const auto& from : elastic_) {
     for (const auto& to : elastic_) domain_.declare_link(from->agent(), to->agent(), 1);
+    domain_.declare_link(schedule_.agent(), from->agent(), 1);
   }
 }
 
 bool ReplayMachine::run(const Monitor& monitor) {
   domain_.set_monitor(monitor);
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
-  for (const auto& unit : elastic_) unit->begin();
+  if (!elastic_.empty()) schedule_.begin();
   sc_core::sc_start();
   errors_.rethrow();
   end_ = domain_.latest() + 1;
@@ -89,8 +91,11 @@ bool ReplayMachine::run(const Monitor& monitor) {
 }
 
 bool ReplayMachine::is_finished() const {
-  const auto finished = [](const auto& unit) { return unit->is_finished(); };
-  return std::ranges::all_of(elastic_, finished) && std::ranges::all_of(fixed_, finished);
+  if (elastic_.empty()) {
+    return std::ranges::all_of(fixed_, [](const auto& unit) { return unit->is_finished(); });
+  }
+  return schedule_.all_done() &&
+         std::ranges::all_of(elastic_, [](const auto& unit) { return unit->is_quiet(); });
 }
 
 const PrivateCache& ReplayMachine::cache(std::size_t stream, std::size_t i) const {

@@ -20,6 +20,7 @@ struct MemoryTraceCache {
 /// The accesses of one unit: its contexts take turns on one issue port.
 struct MemoryTraceStream {
   std::string name;            ///< the unit's, for example traversal_unit0
+  std::string group;           ///< units that can do the same work: traversal_unit
   std::uint32_t contexts = 1;  ///< 1 to 64
   Cycles turnaround = 0;       ///< from the end of a context's chain to the next one's beginning
   Cycles retry_interval = 1;   ///< port cycles of a step that found a line missing

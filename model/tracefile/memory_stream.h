@@ -25,6 +25,10 @@ class MemoryStream {
   /// Of that record: its number in the stream, and the chain that it begins.
   [[nodiscard]] std::uint64_t number() const { return first_ + next_record_; }
   [[nodiscard]] const ChainStart& chain() const { return block_.chains[next_chain_]; }
+  /// Throws Error(kTrace): something is wrong with that record.
+  [[noreturn]] void refuse(const char* problem) const {
+    reader_.refuse(frames_[next_frame_ - 1], problem);
+  }
   void pop() {
     if (block_.records[next_record_].begins) ++next_chain_;
     ++next_record_;

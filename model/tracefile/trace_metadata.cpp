@@ -37,6 +37,7 @@ json to_json(const MemoryTraceStream& stream) {
     caches.push_back({{"name", cache.name}, {"group", cache.group}});
   }
   return {{"name", stream.name},
+          {"group", stream.group},
           {"contexts", stream.contexts},
           {"turnaround", stream.turnaround},
           {"retry_interval", stream.retry_interval},
@@ -97,6 +98,7 @@ std::string name_from(const json& value, const char* key) {
 MemoryTraceStream stream_from(const json& value) {
   MemoryTraceStream stream;
   stream.name = name_from(value, "name");
+  stream.group = name_from(value, "group");
   stream.contexts = number_from<std::uint32_t>(value, "contexts", 1, 64);
   stream.turnaround = number_from<Cycles>(value, "turnaround", 0, kMaxLatency);
   stream.retry_interval = number_from<Cycles>(value, "retry_interval", 1, kMaxLatency);

@@ -21,88 +21,49 @@ UnitSpec spec_of(const MemoryTraceStream& stream) {
 }  // namespace
 
 ElasticUnit::ElasticUnit(const sc_core::sc_module_name& name, const MemoryLayout& layout,
-                         std::size_t stream, MemoryStream records, ReplaySchedule& schedule,
-                         ClockDomain& domain)
+                         std::size_t stream, ReplaySchedule& schedule, ClockDomain& domain)
     : MultiContextUnit(name, spec_of(layout.streams[stream]), 1, domain),
       layout_(layout),
       stream_(stream),
-      records_(std::move(records)),
       schedule_(schedule),
-      contexts_(layout.streams[stream].contexts) {
-  schedule.add(*this);
-}
+      contexts_(layout.streams[stream].contexts),
+      num_free_(contexts_.size()) {}
 
 void ElasticUnit::add_cache(const CacheSpec& spec, TimedOut<LineRequest>& requests,
                             std::uint16_t requester, TimedIn<LineResponse>& lines) {
-  caches_.push_back(std::make_unique<ReplayedCache>(spec, requests, requester, lines));
+  caches_.push_back(std::make_unique<Cache>(spec, requests, requester, lines));
   caches_.back()->cache.bind(inbox_);
   lines.set_consumer(inbox_);
 }
 
-// One record more; false at the end of the stream, or if it cannot be read: an exception has
-// nowhere to go from within a simulation.
-bool ElasticUnit::read_some() try {
-  const MemoryRecord* record = records_.peek();
-  all_read_ = record == nullptr;
-  if (all_read_) return false;
-  Context& context = contexts_[record->context];
-  context.steps.push_back({*record, records_.number()});
-  ++num_held_steps_;
-  if (record->begins) {
-    context.chains.push_back(records_.chain());
-    schedule_.read_chain(stream_, records_.chain().epoch);
-  }
-  records_.pop();
-  return true;
-} catch (...) {
-  schedule_.errors().fail(std::current_exception());
-  domain_.stop();
-  all_read_ = true;
-  return false;
-}
-
-void ElasticUnit::read_ahead(Cycles now) {
-  if (all_read_ || num_held_steps_ >= kAhead) return;
-  while (num_held_steps_ < 2 * kAhead && read_some()) {
-  }
-  schedule_.have_read(stream_, all_read_, now);
+// The context that is free first, of these the lowest.
+void ElasticUnit::assign(ReplayChain& chain, Cycles at) {
+  int first = -1;
   for (std::size_t i = 0; i < contexts_.size(); ++i) {
-    await_next_chain(static_cast<int>(i), now);
+    if (contexts_[i].phase != Phase::kIdle) continue;
+    const bool earlier =
+        first < 0 || std::max(at, contexts_[i].free_at) <
+                         std::max(at, contexts_[static_cast<std::size_t>(first)].free_at);
+    if (earlier) first = static_cast<int>(i);
   }
+  begin(first, chain, at);
 }
 
-// Other contexts may hold all that has been read.
-bool ElasticUnit::have_step(Context& context) {
-  while (context.steps.empty() && read_some()) {
-  }
-  return !context.steps.empty();
-}
-
-void ElasticUnit::await_next_chain(int number, Cycles earliest) {
+void ElasticUnit::begin(int number, ReplayChain& chain, Cycles at) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  if (context.phase != Phase::kIdle || context.chains.empty()) return;
-  context.phase = Phase::kAwaitingCause;
-  const Cycles done = schedule_.await(context.chains.front(), stream_, number);
-  if (done != kNever) begin_chain(number, done, earliest);
-}
-
-void ElasticUnit::cause_done(int number, Cycles done) {
-  begin_chain(number, done, domain_.now() + 1);
-}
-
-void ElasticUnit::begin_chain(int number, Cycles done, Cycles earliest) {
-  Context& context = contexts_[static_cast<std::size_t>(number)];
-  if (context.phase != Phase::kAwaitingCause) return;
-  const Cycles gap = std::max<Cycles>(1, context.chains.front().gap);
-  const Cycles at = std::max({done + gap, context.free_at, earliest});
+  context.chain = &chain;
   context.phase = Phase::kBegin;
-  schedule(number, at);
-  inbox_.nudge(at);
+  --num_free_;
+  const Cycles begin = std::max(at, context.free_at);
+  schedule(number, begin);
+  inbox_.nudge(begin);
 }
 
-void ElasticUnit::answered(int number, Cycles at) {
+void ElasticUnit::answered(int number, std::uint64_t record, Cycles at) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   if (context.phase != Phase::kCalled) return;
+  if (context.chain->steps[context.chain->next].number != record) return;
+  context.phase = Phase::kAnswered;
   schedule(number, at);
   inbox_.nudge(at);
 }
@@ -111,9 +72,8 @@ void ElasticUnit::all_done(Cycles now) {
   if (!layout_.streams[stream_].awaited) inbox_.expect(now + 1);
 }
 
-bool ElasticUnit::is_finished() const {
-  return all_read_ && num_held_steps_ == 0 &&
-         std::ranges::none_of(caches_, [](const auto& own) { return own->cache.has_pending(); });
+bool ElasticUnit::is_quiet() const {
+  return std::ranges::none_of(caches_, [](const auto& own) { return own->cache.has_pending(); });
 }
 
 Cycles ElasticUnit::accept_inputs(Cycles now) {
@@ -132,7 +92,7 @@ Cycles ElasticUnit::accept_inputs(Cycles now) {
     }
     next = std::min(next, own->lines.next_arrival());
   }
-  if (!awaited && schedule_.is_finished() && is_finished()) next = std::min(next, flush_next(now));
+  if (!awaited && schedule_.all_done() && is_quiet()) next = std::min(next, flush_next(now));
   return next;
 }
 
@@ -140,10 +100,10 @@ void ElasticUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   switch (context.phase) {
     case Phase::kIdle:
-    case Phase::kAwaitingCause:
+    case Phase::kCalled:
       return;
     case Phase::kBegin:
-      go_on(number);
+      go_on(number, now);
       return;
     case Phase::kStep:
       enqueue(number);
@@ -151,46 +111,40 @@ void ElasticUnit::ready(int number, Cycles now) {
     case Phase::kIssued:
       finish_step(number, now);
       return;
-    case Phase::kCalled:
+    case Phase::kAnswered:
       leave_step(number, now);
       return;
   }
 }
 
-void ElasticUnit::go_on(int number) {
+void ElasticUnit::go_on(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  context.phase = Phase::kStep;
-  if (have_step(context)) {
-    enqueue(number);
-  } else {
-    context.phase = Phase::kIdle;  // a chain without end: the replay will not come to its own
-  }
+  // A chain without end: the replay will not come to its own.
+  context.phase = schedule_.has_step(*context.chain, now) ? Phase::kStep : Phase::kCalled;
+  if (context.phase == Phase::kStep) enqueue(number);
 }
 
-// Its step is done, and answered if it called.
 void ElasticUnit::leave_step(int number, Cycles now) {
-  Context& context = contexts_[static_cast<std::size_t>(number)];
-  const Step step = context.steps.front();
-  context.steps.pop_front();
-  --num_held_steps_;
+  ReplayChain& chain = *contexts_[static_cast<std::size_t>(number)].chain;
+  const ReplayStep step = chain.steps[chain.next];
+  schedule_.leave_step(chain, now);
   if (step.record.ends) {
     end_chain(number, step.number, now);
   } else {
-    go_on(number);
+    go_on(number, now);
   }
-  read_ahead(now);
 }
 
 void ElasticUnit::issue(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  const MemoryOperation& operation = layout_.operations[context.steps.front().record.operation];
+  const MemoryOperation& operation = operation_of(context);
   if (operation.bytes == 0) {
     context.num_accesses = 1;
     context.phase = Phase::kIssued;
     occupy(number, 0, operation.latency, operation.port_cycles, now);
     return;
   }
-  ReplayedCache& own = *caches_[operation.cache];
+  Cache& own = *caches_[operation.cache];
   if (context.lines.empty()) list_lines(context, own.cache);
   if (operation.write) {
     issue_writes(number, now);
@@ -213,7 +167,7 @@ void ElasticUnit::issue(int number, Cycles now) {
 // Nobody waits for the lines; only a lack of MSHRs holds the unit up.
 void ElasticUnit::issue_writes(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  const MemoryOperation& operation = layout_.operations[context.steps.front().record.operation];
+  const MemoryOperation& operation = operation_of(context);
   PrivateCache& cache = caches_[operation.cache]->cache;
   while (!context.lines.empty()) {
     if (cache.modify(context.lines.back(), operation.kind, number, now) ==
@@ -229,40 +183,38 @@ void ElasticUnit::issue_writes(int number, Cycles now) {
 }
 
 void ElasticUnit::list_lines(Context& context, const PrivateCache& cache) {
-  const MemoryOperation& operation = layout_.operations[context.steps.front().record.operation];
-  context.num_accesses = 0;
-  for (const Step& step : context.steps) {
-    if (context.num_accesses != 0 && !step.record.continues) break;
-    add_lines(step.record.address, operation.bytes, cache, context.lines);
-    ++context.num_accesses;
-  }
+  const MemoryOperation& operation = operation_of(context);
+  const auto& steps = context.chain->steps;
+  std::size_t i = context.chain->next;
+  do {
+    add_lines(steps[i].record.address, operation.bytes, cache, context.lines);
+    ++i;
+  } while (i != steps.size() && steps[i].record.continues);
+  context.num_accesses = i - context.chain->next;
   keep_each_once(context.lines);
   if (operation.write) std::ranges::reverse(context.lines);  // taken from the end
 }
 
 void ElasticUnit::finish_step(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  for (; context.num_accesses > 1; --context.num_accesses) {
-    context.steps.pop_front();
-    --num_held_steps_;
-  }
-  const Step last = context.steps.front();
-  schedule_.step_done(stream_, last.number, number, now);
-  if (layout_.operations[last.record.operation].calls) {
-    context.phase = Phase::kCalled;
-  } else {
-    leave_step(number, now);
-  }
+  for (; context.num_accesses > 1; --context.num_accesses)
+    schedule_.leave_step(*context.chain, now);
+  const bool calls = operation_of(context).calls;
+  if (calls) context.phase = Phase::kCalled;
+  schedule_.step_done(*context.chain, *this, number, now);
+  if (!calls) leave_step(number, now);
 }
 
 void ElasticUnit::end_chain(int number, std::uint64_t record, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  const ChainStart chain = context.chains.front();
-  context.chains.pop_front();
+  ReplayChain& chain = *context.chain;
+  context.chain = nullptr;
   context.phase = Phase::kIdle;
   context.free_at = now + layout_.streams[stream_].turnaround;
-  schedule_.chain_ended(stream_, record, chain, now);
-  await_next_chain(number, now);
+  ++num_free_;
+  schedule_.chain_ended(chain, record, now);
+  ReplayChain* const next = schedule_.next_waiting(stream_);
+  if (next != nullptr) begin(number, *next, now);
 }
 
 Cycles ElasticUnit::flush_next(Cycles now) {

@@ -3,117 +3,205 @@
 #include "units/replay_schedule.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace sheaf {
 
-ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors)
-    : layout_(layout), streams_(layout.streams.size()), errors_(errors) {
-  for (std::size_t i = 0; i < streams_.size(); ++i) {
-    streams_[i].awaited = layout.streams[i].awaited;
-    streams_[i].done.resize(kRemembered);
+ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors,
+                               ClockDomain& domain)
+    : layout_(layout), errors_(errors), domain_(domain), agent_(domain.add(*this)) {
+  std::map<std::string, std::size_t> numbers;
+  for (std::size_t i = 0; i < layout.streams.size(); ++i) {
+    Stream& stream = streams_.emplace_back();
+    const auto known = numbers.try_emplace(layout.streams[i].group, groups_.size());
+    if (known.second) groups_.emplace_back();
+    stream.group = known.first->second;
+    groups_[stream.group].streams.push_back(i);
+    stream.awaited = layout.streams[i].awaited;
+    stream.done.resize(kRemembered);
   }
 }
 
-std::uint64_t ReplaySchedule::Stream::first_epoch() const {
-  if (!awaited) return kNoEpoch;
-  const std::uint64_t unread = read ? kNoEpoch : last_epoch;
-  return epochs.empty() ? unread : std::min(unread, epochs.begin()->first);
+void ReplaySchedule::add(ReplayedUnit& unit, MemoryStream records) {
+  const auto is_new = [](const Stream& stream) { return stream.unit == nullptr; };
+  const auto stream = std::ranges::find_if(streams_, is_new);
+  stream->unit = &unit;
+  stream->reader = std::make_unique<ChainReader>(
+      std::move(records), static_cast<std::size_t>(stream - streams_.begin()), chains_);
 }
 
-void ReplaySchedule::read_chain(std::size_t stream, std::uint64_t epoch) {
-  ++streams_[stream].epochs[epoch];
-  streams_[stream].last_epoch = epoch;
+void ReplaySchedule::begin() {
+  read_ahead(0, 0);
 }
 
-void ReplaySchedule::have_read(std::size_t stream, bool all, Cycles now) {
-  streams_[stream].read = all;
+// So that half of kAhead at least lies before the cycle of the recording.
+void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) try {
+  if (recorded + kAhead / 2 < read_until_) return;
+  read_until_ = recorded + kAhead;
+  for (Stream& stream : streams_) {
+    stream.reader->read_until(read_until_, [&](ReplayChain& chain) { take_in(chain, now); });
+  }
   advance_epoch(now);
+} catch (...) {
+  errors_.fail(std::current_exception());
+  domain_.stop();
 }
 
-Cycles ReplaySchedule::await(const ChainStart& chain, std::size_t stream, int context) {
-  if (chain.cause_stream == AccessCause::kAllEarlier) {
-    if (epoch_ >= chain.epoch) return epoch_begin_;
-    epoch_waiters_.push_back({stream, context, chain});
-    return kNever;
+bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) try {
+  if (chain.next != chain.steps.size()) return true;
+  ChainReader& reader = *streams_[chain.stream].reader;
+  const bool has = reader.has_step(chain, [&](ReplayChain& read) { take_in(read, now); });
+  advance_epoch(now);
+  return has;
+} catch (...) {
+  errors_.fail(std::current_exception());
+  domain_.stop();
+  return false;
+}
+
+void ReplaySchedule::take_in(ReplayChain& chain, Cycles now) {
+  Stream& stream = streams_[chain.stream];
+  ++stream.epochs[chain.start.epoch];
+  await(chain, now);
+}
+
+void ReplaySchedule::await(ReplayChain& chain, Cycles now) {
+  const ChainStart& start = chain.start;
+  if (start.cause_stream == AccessCause::kAllEarlier) {
+    if (epoch_ >= start.epoch) return arrive(chain, epoch_begin_, now);
+    epoch_waiters_.push_back(&chain);
+    return;
   }
-  Stream& source = streams_[chain.cause_stream];
-  Done& done = done_at(source, chain.cause_record);
-  if (done.record == chain.cause_record) {
-    const Cycles at = chain.cause_ended ? done.chain : done.step;
-    if (at != kNever) return at;
-  } else if (done.record != ~std::uint64_t{0} && done.record > chain.cause_record) {
-    return 0;  // so long ago that a later record has taken its place
+  Stream& source = streams_[start.cause_stream];
+  Done& done = source.done[start.cause_record % kRemembered];
+  if (done.record == start.cause_record) {
+    const Cycles at = start.cause_ended ? done.chain : done.step;
+    if (at != kNever) return arrive(chain, at, now);
+  } else if (done.record != kNoRecord && done.record > start.cause_record) {
+    return arrive(chain, 0, now);  // so long ago that a later record has taken its place
   } else {
-    done = {chain.cause_record, kNever, kNever, 0, false};
+    done = {};
+    done.record = start.cause_record;
   }
-  done.awaited = true;
-  source.waiters.push_back({stream, context, chain});
-  return kNever;
+  chain.next_waiter = std::exchange(done.waiters, &chain);
 }
 
-void ReplaySchedule::tell_waiters(Stream& stream, std::uint64_t record, bool ended, Cycles now) {
-  for (std::size_t i = 0; i < stream.waiters.size();) {
-    const Waiter waiter = stream.waiters[i];
-    if (waiter.chain.cause_record != record || waiter.chain.cause_ended != ended) {
-      ++i;
-      continue;
+void ReplaySchedule::tell_waiters(Done& done, bool ended, Cycles now) {
+  ReplayChain* chain = std::exchange(done.waiters, nullptr);
+  while (chain != nullptr) {
+    ReplayChain* const next = chain->next_waiter;
+    if (chain->start.cause_ended == ended) {
+      arrive(*chain, now, now);
+    } else {
+      chain->next_waiter = std::exchange(done.waiters, chain);
     }
-    stream.waiters[i] = stream.waiters.back();
-    stream.waiters.pop_back();
-    streams_[waiter.stream].unit->cause_done(waiter.context, now);
+    chain = next;
   }
 }
 
-void ReplaySchedule::step_done(std::size_t number, std::uint64_t record, int context, Cycles now) {
-  Stream& stream = streams_[number];
-  Done& done = done_at(stream, record);
-  const bool awaited = done.record == record && done.awaited;
-  done = {record, now, kNever, static_cast<std::uint8_t>(context), awaited};
-  if (awaited) tell_waiters(stream, record, false, now);
+// What has been learnt late cannot begin in the past: `now` is the time of the unit that acts.
+void ReplaySchedule::arrive(ReplayChain& chain, Cycles done, Cycles now) {
+  const Cycles gap = std::max<Cycles>(1, chain.start.gap);
+  const Cycles at = std::max(done + gap, now + 1);
+  arriving_.push({at, num_arrived_++, &chain});
+  domain_.schedule(agent_, at - 1);
 }
 
-void ReplaySchedule::chain_ended(std::size_t number, std::uint64_t record, const ChainStart& chain,
-                                 Cycles now) {
-  Stream& stream = streams_[number];
-  Done& done = done_at(stream, record);
+// Places chains the cycle before they begin, so that their unit cannot have got there yet.
+Cycles ReplaySchedule::wake(Cycles now) {
+  while (!arriving_.empty() && arriving_.top().at <= now + 1) {
+    const Arrival arrival = arriving_.top();
+    arriving_.pop();
+    place(arrival);
+  }
+  return arriving_.empty() ? kNever : arriving_.top().at - 1;
+}
+
+void ReplaySchedule::place(const Arrival& arrival) {
+  Group& group = groups_[streams_[arrival.chain->stream].group];
+  const auto num_free = [&](std::size_t stream) {
+    return streams_[stream].unit->num_free_contexts();
+  };
+  const std::size_t freest = *std::ranges::max_element(group.streams, {}, num_free);
+  if (num_free(freest) == 0) {
+    group.waiting.push(arrival);
+  } else {
+    streams_[freest].unit->assign(*arrival.chain, arrival.at);
+  }
+}
+
+ReplayChain* ReplaySchedule::next_waiting(std::size_t stream) {
+  Arrivals& waiting = groups_[streams_[stream].group].waiting;
+  if (waiting.empty()) return nullptr;
+  ReplayChain* const chain = waiting.top().chain;
+  waiting.pop();
+  return chain;
+}
+
+void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context, Cycles now) {
+  Stream& stream = streams_[chain.stream];
+  const std::uint64_t record = chain.steps[chain.next].number;
+  Done& done = stream.done[record % kRemembered];
+  ReplayChain* const waiters = done.record == record ? done.waiters : nullptr;
+  done = {record, now, kNever, &unit, static_cast<std::uint8_t>(context), waiters};
+  tell_waiters(done, false, now);
+}
+
+void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) {
+  const Cycles recorded = chain.steps[chain.next].record.cycle;
+  streams_[chain.stream].reader->leave_step(chain);
+  read_ahead(recorded, now);
+}
+
+void ReplaySchedule::chain_ended(ReplayChain& chain, std::uint64_t record, Cycles now) {
+  Stream& stream = streams_[chain.stream];
+  Done& done = stream.done[record % kRemembered];
   if (done.record == record) {
     done.chain = now;
-    if (done.awaited) tell_waiters(stream, record, true, now);
+    tell_waiters(done, true, now);
   }
   // A caller waits for its answer.
-  if (chain.cause_stream != AccessCause::kAllEarlier && !chain.cause_ended) {
-    Stream& caller = streams_[chain.cause_stream];
-    const Done& call = done_at(caller, chain.cause_record);
-    if (call.record == chain.cause_record && caller.unit != nullptr) {
-      caller.unit->answered(call.context, now + layout_.answer_latency);
+  const ChainStart start = chain.start;
+  if (start.cause_stream != AccessCause::kAllEarlier && !start.cause_ended) {
+    const Done& call = streams_[start.cause_stream].done[start.cause_record % kRemembered];
+    if (call.record == start.cause_record && call.unit != nullptr) {
+      call.unit->answered(call.context, call.record, now + layout_.answer_latency);
     }
   }
-  const auto epoch = stream.epochs.find(chain.epoch);
+  chains_.release(&chain);
+  const auto epoch = stream.epochs.find(start.epoch);
   if (epoch != stream.epochs.end() && --epoch->second == 0) stream.epochs.erase(epoch);
   if (!stream.awaited) return;
   last_end_ = std::max(last_end_, now);
   advance_epoch(now);
 }
 
+// No chain of an earlier epoch is left in the stream.
+std::uint64_t ReplaySchedule::first_epoch(const Stream& stream) const {
+  if (!stream.awaited) return kNoEpoch;
+  const std::uint64_t unread = stream.reader->next_epoch();
+  return stream.epochs.empty() ? unread : std::min(unread, stream.epochs.begin()->first);
+}
+
 void ReplaySchedule::advance_epoch(Cycles now) {
   std::uint64_t first = kNoEpoch;
-  for (const Stream& stream : streams_) first = std::min(first, stream.first_epoch());
+  for (const Stream& stream : streams_) first = std::min(first, first_epoch(stream));
   if (first <= epoch_) return;
   epoch_ = first;
   epoch_begin_ = last_end_;
-  for (std::size_t i = 0; i < epoch_waiters_.size();) {
-    const Waiter waiter = epoch_waiters_[i];
-    if (waiter.chain.epoch > epoch_) {
-      ++i;
-      continue;
-    }
-    epoch_waiters_[i] = epoch_waiters_.back();
-    epoch_waiters_.pop_back();
-    streams_[waiter.stream].unit->cause_done(waiter.context, epoch_begin_);
-  }
-  if (epoch_ == kNoEpoch) {
-    for (Stream& stream : streams_) stream.unit->all_done(now);
-  }
+  std::erase_if(epoch_waiters_, [&](ReplayChain* chain) {
+    if (chain->start.epoch > epoch_) return false;
+    arrive(*chain, epoch_begin_, now);
+    return true;
+  });
+  if (epoch_ != kNoEpoch) return;
+  for (Stream& stream : streams_) stream.unit->all_done(now);
+}
+
+bool ReplaySchedule::all_done() const {
+  return std::ranges::all_of(streams_,
+                             [](const Stream& stream) { return stream.reader->all_done(); });
 }
 
 }  // namespace sheaf
