@@ -9,9 +9,11 @@
 #include <new>
 #include <systemc>
 
+#include "apps/curve_command.h"
 #include "apps/memory_command.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
+#include "apps/trace_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "stats/counter_group.h"
@@ -28,6 +30,8 @@ struct Commands {
   sheaf::RunOptions run;
   sheaf::MemoryOptions memory;
   sheaf::ReplayOptions replay;
+  sheaf::TraceOptions trace;
+  sheaf::CurveOptions curve;
   std::string info_scene;
   bool schema = false;
   bool resolve = false;
@@ -110,6 +114,8 @@ void declare(CLI::App& app, Commands& commands) {
 
   sheaf::declare_memory_command(app, commands.memory);
   declare_replay(app, commands.replay);
+  sheaf::declare_trace_command(app, commands.trace);
+  sheaf::declare_curve_command(app, commands.curve);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
@@ -136,6 +142,8 @@ int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
+  if (app.got_subcommand("trace")) return sheaf::trace_command(commands.trace);
+  if (app.got_subcommand("curve")) return sheaf::curve_command(commands.curve);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("config")) {
     std::fputs(config_output(commands).c_str(), stdout);

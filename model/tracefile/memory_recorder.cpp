@@ -7,8 +7,8 @@
 namespace sheaf {
 namespace {
 
-// A chain that begins within so many cycles of its context's getting free has waited for it, and
-// would have begun earlier if it had been free earlier.
+// A chain that begins within so many cycles of a context's getting free when all had been busy has
+// waited for it, and would have begun earlier if it had been free earlier.
 constexpr Cycles kWaitedForContext = 16;
 
 }  // namespace
@@ -24,17 +24,21 @@ std::uint32_t StreamRecorder::learn(std::size_t key, const MemoryOperation& oper
 
 void StreamRecorder::begin(int context, const AccessCause& cause, Cycles earliest, Cycles now) {
   Context& state = contexts_[static_cast<std::size_t>(context)];
-  const bool waited = state.used && now <= state.ended + turnaround_ + kWaitedForContext;
+  const bool waited = group_.was_full && now <= group_.last_full + turnaround_ + kWaitedForContext;
+  ++group_.busy;
   const Cycles begin = waited ? std::min(earliest, now) : now;
   const Cycles gap = begin > cause.done ? begin - cause.done : 1;
   state.start = {cause.stream, cause.record, cause.ended, gap, recorder_.epoch_};
   state.begins = true;
-  state.used = true;
 }
 
 AccessCause StreamRecorder::end(int context, Cycles now) {
   Context& state = contexts_[static_cast<std::size_t>(context)];
-  state.ended = now;
+  if (group_.busy == group_.contexts) {
+    group_.was_full = true;
+    group_.last_full = std::max(group_.last_full, now);
+  }
+  --group_.busy;
   state.sent = now;
   if (awaited_) recorder_.last_end_ = std::max(recorder_.last_end_, now);
   AccessCause ended = cause(context);
@@ -51,7 +55,9 @@ void StreamRecorder::flush() {
 StreamRecorder& MemoryRecorder::add_stream(const MemoryTraceStream& stream) {
   const auto number = static_cast<std::uint16_t>(streams_.size());
   layout_.streams.push_back(stream);
-  streams_.push_back(std::make_unique<StreamRecorder>(*this, number, stream, stream.awaited));
+  StreamRecorder::Group& group = groups_[stream.group];
+  group.contexts += stream.contexts;
+  streams_.push_back(std::make_unique<StreamRecorder>(*this, number, stream, group));
   return *streams_.back();
 }
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/access_cause.h"
@@ -20,9 +22,21 @@ class MemoryRecorder;
 /// Calls come in order of the unit's time; `now` is its own.
 class StreamRecorder {
  public:
+  /// The contexts of all units that can do the same work.
+  struct Group {
+    std::uint32_t contexts = 0;
+    std::uint32_t busy = 0;
+    Cycles last_full = 0;  ///< when one of them became free after all had been busy
+    bool was_full = false;
+  };
+
   StreamRecorder(MemoryRecorder& recorder, std::uint16_t number, const MemoryTraceStream& stream,
-                 bool awaited)
-      : recorder_(recorder), number_(number), turnaround_(stream.turnaround), awaited_(awaited) {}
+                 Group& group)
+      : recorder_(recorder),
+        number_(number),
+        turnaround_(stream.turnaround),
+        awaited_(stream.awaited),
+        group_(group) {}
 
   /// The number of the operation that the unit knows by `key`, a small number; make() describes it
   /// when it is first asked for.
@@ -73,8 +87,6 @@ class StreamRecorder {
   struct Context {
     std::uint64_t last = 0;  ///< number of its last record
     Cycles sent = 0;
-    Cycles ended = 0;  ///< when its last chain was over
-    bool used = false;
     bool begins = false;  ///< its next record begins a chain
     ChainStart start;     ///< of that chain
   };
@@ -84,6 +96,7 @@ class StreamRecorder {
   const std::uint16_t number_;
   const Cycles turnaround_;
   const bool awaited_;
+  Group& group_;
   std::array<Context, 64> contexts_{};
   MemoryBlock block_;
   std::uint64_t num_records_ = 0;
@@ -131,6 +144,7 @@ class MemoryRecorder {
   TraceWriter& writer_;
   MemoryLayout layout_;
   std::vector<std::unique_ptr<StreamRecorder>> streams_;
+  std::map<std::string, StreamRecorder::Group> groups_;
   std::uint64_t epoch_ = 0;
   Cycles last_end_ = 0;  ///< of the chains of awaited streams
   AccessCause last_retired_;

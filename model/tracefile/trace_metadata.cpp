@@ -121,6 +121,19 @@ MemoryOperation operation_from(const json& value) {
   return operation;
 }
 
+// Any unit of a group can do what another one did.
+void check_group(const MemoryLayout& layout, const MemoryTraceStream& stream) {
+  for (const MemoryTraceStream& other : layout.streams) {
+    if (other.group != stream.group) continue;
+    const auto group = [](const MemoryTraceCache& cache) { return cache.group; };
+    if (other.awaited == stream.awaited &&
+        std::ranges::equal(other.caches, stream.caches, {}, group, group)) {
+      continue;
+    }
+    throw BadMetadata("two units of a group are not alike");
+  }
+}
+
 MemoryLayout layout_from(const json& value) {
   MemoryLayout layout;
   for (const json& stream : value.at("streams")) layout.streams.push_back(stream_from(stream));
@@ -135,6 +148,7 @@ MemoryLayout layout_from(const json& value) {
       }
     }
   }
+  for (const MemoryTraceStream& stream : layout.streams) check_group(layout, stream);
   for (const json& operation : value.at("operations")) {
     layout.operations.push_back(operation_from(operation));
   }
