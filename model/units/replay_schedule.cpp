@@ -125,7 +125,8 @@ void ReplaySchedule::place(const Arrival& arrival) {
   };
   const std::size_t freest = *std::ranges::max_element(group.streams, {}, num_free);
   if (num_free(freest) == 0) {
-    group.waiting.push(arrival);
+    const Cycles recorded = arrival.chain->steps.front().record.cycle;
+    group.waiting.push({recorded, arrival.rank, arrival.chain});
   } else {
     streams_[freest].unit->assign(*arrival.chain, arrival.at);
   }

@@ -44,7 +44,8 @@ class ReplayErrors {
 
 /// Lets the chains of a trace begin when what they waited for is done, each on the unit of its
 /// group with the most free contexts, or on the first one that gets a context free; of chains that
-/// wait for one, the first to have arrived goes first.
+/// wait for one, the first to have begun in the recording goes first, so that the choices of the
+/// arbiter are kept.
 class ReplaySchedule final : public Agent {
  public:
   ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors, ClockDomain& domain);
@@ -63,7 +64,7 @@ class ReplaySchedule final : public Agent {
   void leave_step(ReplayChain& chain, Cycles now);
   /// The last step has been left behind; `record` is its number. The unit's context is free.
   void chain_ended(ReplayChain& chain, std::uint64_t record, Cycles now);
-  /// The chain that has waited longest for a context of the unit of this stream; null if none has.
+  /// The first of the chains that wait for a context of the unit of this stream; null if none does.
   [[nodiscard]] ReplayChain* next_waiting(std::size_t stream);
 
   /// All chains of awaited streams have ended.
@@ -109,7 +110,7 @@ class ReplaySchedule final : public Agent {
   using Arrivals = std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>>;
   struct Group {
     std::vector<std::size_t> streams;
-    Arrivals waiting;  ///< for a context
+    Arrivals waiting;  ///< for a context; by the cycle in which they began in the recording
   };
 
   void read_ahead(Cycles recorded, Cycles now);

@@ -26,8 +26,10 @@ _HEADER, _FRAME, _INDEX, _TRAILER = 64, 48, 32, 48
 _LARGEST = 1 << 24
 _KINDS = {1: "rays", 2: "memory"}
 _RAY_KINDS = np.array(["primary", "reflection", "refraction"])
-_FLOATS = ("origin_x", "origin_y", "origin_z", "direction_x", "direction_y", "direction_z")
-_FLOATS += ("t_max", "weight_r", "weight_g", "weight_b")
+_FLOATS = (
+    *("origin_x", "origin_y", "origin_z", "direction_x", "direction_y", "direction_z"),
+    *("t_max", "weight_r", "weight_g", "weight_b"),
+)
 _BLOCK = 16
 
 
@@ -121,7 +123,7 @@ class Trace:
         if _checksum(content, frame.offset) != checksum:
             raise self._refuse(frame.offset, "the frame does not match its checksum")
         try:
-            return pa.decompress(content, unpacked, codec="zstd", asbytes=True)
+            return bytes(pa.decompress(content, unpacked, codec="zstd", asbytes=True))
         except (OSError, pa.ArrowException) as error:
             raise self._refuse(frame.offset, f"the frame cannot be unpacked: {error}") from error
 
@@ -181,8 +183,10 @@ class _Columns:
     def numbers(self, count: int) -> np.ndarray:
         column = self._next()
         ends = np.flatnonzero(column < 0x80)
-        if len(ends) != count or (count and ends[-1] != len(column) - 1) or (
-            count == 0 and len(column)
+        if (
+            len(ends) != count
+            or (count and ends[-1] != len(column) - 1)
+            or (count == 0 and len(column))
         ):
             raise ValueError("a column has another number of numbers than its records")
         if count == 0:
@@ -245,7 +249,8 @@ def _rays(frame: _Frame, columns: _Columns, image: dict[str, int]) -> dict[str, 
     return {"rays": rays, "spawned": pd.DataFrame(identity | floats)}
 
 
-def _mix(x: np.ndarray) -> np.ndarray:
+def _mix(of: np.ndarray) -> np.ndarray:
+    x: np.ndarray = of
     x = (x ^ x >> np.uint64(30)) * np.uint64(0xBF58476D1CE4E5B9)
     x = (x ^ x >> np.uint64(27)) * np.uint64(0x94D049BB133111EB)
     return x ^ x >> np.uint64(31)
