@@ -249,11 +249,10 @@ def _rays(frame: _Frame, columns: _Columns, image: dict[str, int]) -> dict[str, 
     return {"rays": rays, "spawned": pd.DataFrame(identity | floats)}
 
 
-def _mix(of: np.ndarray) -> np.ndarray:
-    x: np.ndarray = of
+def _mix(x: np.ndarray) -> np.ndarray:
     x = (x ^ x >> np.uint64(30)) * np.uint64(0xBF58476D1CE4E5B9)
     x = (x ^ x >> np.uint64(27)) * np.uint64(0x94D049BB133111EB)
-    return x ^ x >> np.uint64(31)
+    return np.asarray(x ^ x >> np.uint64(31))
 
 
 def _accesses(frame: _Frame, columns: _Columns, memory: Any) -> dict[str, pd.DataFrame]:
