@@ -122,7 +122,7 @@ TEST_P(MemoryReplay, IsTheSameEveryTime) {
 TEST_P(MemoryReplay, WorksForEveryKindOfMachine) {
   for (const Settings& machine :
        {Settings{"flow.control=credits", "ray_cache.heuristic=mdir(24)", "ray_cache.timeout=500"},
-        Settings{"shader_cache.cells=8", "shader_unit.count=2", "traversal.scheme=interval"},
+        Settings{"shader_cache.cells=8", "shader_unit.count=2", "traversal.scheme=single"},
         Settings{"ray_cache.heuristic=opos", "traversal_unit.contexts=1", "film.format=unorm8"}}) {
     const std::filesystem::path recorded = record(machine);
     for (const char* mode : {"elastic", "fixed"}) {
