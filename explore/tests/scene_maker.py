@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Sheaf authors
 # SPDX-License-Identifier: Apache-2.0
-"""A glTF scene of a mirror floor and a wall, small enough for hundreds of runs."""
+"""glTF scenes of mirrors, small enough for hundreds of runs."""
 
 from __future__ import annotations
 
@@ -8,16 +8,28 @@ import base64
 import json
 import struct
 
-_QUADS = [
+Quad = list[tuple[float, float, float]]
+
+_QUADS: list[Quad] = [
     [(-2, 0, -2), (2, 0, -2), (2, 0, 2), (-2, 0, 2)],
     [(-2, 0, -2), (-2, 2, -2), (2, 2, -2), (2, 0, -2)],
 ]
 
 
-def tiny_gltf() -> str:
+def stairs(steps: int) -> list[Quad]:
+    """Mirroring steps, enough for a tree with inner nodes."""
+    quads: list[Quad] = []
+    for i in range(steps):
+        y, z = float(i), -float(i)
+        quads.append([(-4, y, z), (4, y, z), (4, y + 1, z), (-4, y + 1, z)])
+        quads.append([(-4, y + 1, z), (4, y + 1, z), (4, y + 1, z - 1), (-4, y + 1, z - 1)])
+    return quads
+
+
+def tiny_gltf(quads: list[Quad] = _QUADS) -> str:
     """The scene as text, its one buffer inside."""
-    vertices = [corner for quad in _QUADS for corner in quad]
-    indices = [4 * q + i for q in range(len(_QUADS)) for i in (0, 1, 2, 0, 2, 3)]
+    vertices = [corner for quad in quads for corner in quad]
+    indices = [4 * q + i for q in range(len(quads)) for i in (0, 1, 2, 0, 2, 3)]
     positions = b"".join(struct.pack("<3f", *vertex) for vertex in vertices)
     data = positions + struct.pack(f"<{len(indices)}H", *indices)
     lows = [min(v[i] for v in vertices) for i in range(3)]

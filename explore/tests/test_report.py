@@ -16,7 +16,7 @@ import pytest
 from conftest import Explore
 
 from sheaf_explore.collect import collect
-from sheaf_explore.derived import derive, RAY_BITS, sram_bits
+from sheaf_explore.derived import derive
 from sheaf_explore.simulator import Simulator
 from sheaf_explore.store import Store
 
@@ -81,30 +81,18 @@ def test_a_damaged_result_is_named(explore: Explore, swept: Path) -> None:
     assert str(victim) in done.stderr
 
 
-def test_sram_counts_caches_cells_and_fifo() -> None:
-    settings = {
-        "node_cache.mode": "normal",
-        "node_cache.capacity": 1024,
-        "triangle_cache.mode": "perfect",
-        "triangle_cache.capacity": 4096,
-        "packet.size": 4,
-        "packet_fifo.depth": 2,
-        "ray_cache.cells": 0,
-        "ray_cache.heuristic": "mdir(24)",
-    }
+def test_derived_columns_sum_over_units_and_take_the_models_own_sram() -> None:
     counters = {
-        "system.cycles": 1,
         "system.traversal_unit0.node_cache.num_accesses": 8,
         "system.traversal_unit0.node_cache.num_hits": 6,
         "system.traversal_unit1.node_cache.num_accesses": 2,
         "system.traversal_unit1.node_cache.num_hits": 1,
-        "system.intersection_unit0.triangle_cache.num_accesses": 8,
-        "system.ray_cache.num_insertions": 5,
-        "system.packet_fifo.max_occupancy": 1,
+        "area.sram_bits": 4711,
     }
-    cache = 2 * 8 * 1024
-    assert sram_bits(counters, settings) == cache + 24 * 4 * RAY_BITS + 2 * 4 * (RAY_BITS + 1)
-    assert derive(counters, settings)["derived.node_cache.hit_rate"] == (0.7, "1")
+    derived = derive(counters)
+    assert derived["derived.node_cache.hit_rate"] == (0.7, "1")
+    assert derived["derived.sram_bits"] == (4711, "bits")
+    assert "derived.sram_bits" not in derive({})
 
 
 def test_a_report_is_one_page_with_plots_and_links(explore: Explore, swept: Path) -> None:

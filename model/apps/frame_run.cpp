@@ -8,16 +8,15 @@
 #include <csignal>
 #include <cstdio>
 
+#include "apps/simulate_frame.h"
 #include "base/errors.h"
 #include "config/config_text.h"
+#include "energy/energy_report.h"
 #include "report/images.h"
-#include "report/progress.h"
 #include "report/stats_json.h"
 #include "report/summary.h"
 #include "scene/load_gltf.h"
 #include "system/coherence.h"
-#include "system/functional_pipeline.h"
-#include "system/machine.h"
 #include "system/report_parts.h"
 #include "system/reported_values.h"
 
@@ -55,6 +54,14 @@ SceneLoadOptions load_options(const Config& config) {
   return options;
 }
 
+Scene load_with_notes(const std::filesystem::path& file, const Config& config) {
+  LoadedScene loaded = load_scene(file, load_options(config));
+  for (const std::string& warning : loaded.warnings) {
+    std::fputs(fmt::format("sheaf: note: {}\n", warning).c_str(), stderr);
+  }
+  return std::move(loaded.scene);
+}
+
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {
@@ -64,30 +71,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// Simulates; fills the frame and the statistics. Returns true if the frame is complete.
-bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
-              FrameGuest* guest, StatsTree& stats) {
-  Progress progress;
-  const RunHooks hooks = guest != nullptr ? guest->hooks() : RunHooks{};
-  const auto stop = [&] { return interrupt_seen != 0 || (guest != nullptr && guest->failed()); };
-  if (config.run.fidelity == Fidelity::kFunctional) {
-    FunctionalPipeline pipeline(config, plan, scene, frame, hooks);
-    const bool complete = pipeline.run([&](double share) {
-      progress.update(share, "tracing");
-      return stop();
-    });
-    pipeline.report(stats);
-    return complete;
-  }
-  Machine machine(config, plan, scene, frame, hooks);
-  const bool complete = machine.run([&](double share, Cycles now) {
-    progress.update(share, fmt::format("cycle {}", now));
-    return stop();
-  });
-  machine.report(stats);
-  return complete;
-}
 
 }  // namespace
 
@@ -106,20 +89,24 @@ bool interrupted() {
   return interrupt_seen != 0;
 }
 
+PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,
+                            const std::optional<std::filesystem::path>& trees) {
+  std::optional<TreeCache> cache;
+  if (trees) cache.emplace(*trees);
+  return {load_with_notes(file, config), config, cache ? &*cache : nullptr};
+}
+
 int run_frame(const FrameJob& job, ResultFolder& folder) {
   const Config& config = job.config;
   const HeuristicChoice heuristic = HeuristicChoice::parse(config.ray_cache.heuristic);
   const Stopwatch load_watch;
-  LoadedScene loaded = load_scene(job.scene, load_options(config));
-  for (const std::string& warning : loaded.warnings) {
-    std::fputs(fmt::format("sheaf: note: {}\n", warning).c_str(), stderr);
-  }
+  Scene loaded = load_with_notes(job.scene, config);
   const double load_seconds = load_watch.seconds();
-  const BuildPlan plan = plan_machine(config, loaded.scene.needs);
+  const BuildPlan plan = plan_machine(config, loaded.needs);
   const Stopwatch build_watch;
   std::optional<TreeCache> trees;
   if (job.trees) trees.emplace(*job.trees);
-  const PreparedScene scene(std::move(loaded.scene), config, trees ? &*trees : nullptr);
+  const PreparedScene scene(std::move(loaded), config, trees ? &*trees : nullptr);
   const double build_seconds = build_watch.seconds();
 
   Frame frame(config);
@@ -130,9 +117,13 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   report_scene(scene, plan, stats);
   const std::unique_ptr<FrameGuest> guest = job.guest ? job.guest(scene, frame) : nullptr;
   const Stopwatch run_watch;
-  const bool complete = simulate(config, plan, scene, frame, guest.get(), stats);
+  const RunHooks hooks = guest ? guest->hooks() : RunHooks{};
+  const auto stop = [&] { return interrupted() || (guest && guest->failed()); };
+  const bool complete =
+      simulate_frame({config, plan, scene, hooks, job.observers, stop}, frame, stats);
   const double run_seconds = run_watch.seconds();
   report_rays(frame.rays, stats);
+  report_energy(config, plan, stats);
   if (config.measure.coherence && complete) {
     CoherencePass coherence(config, scene);
     coherence.run();

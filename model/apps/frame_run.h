@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/config.h"
 #include "report/result_folder.h"
 #include "stats/report_tree.h"
 #include "system/frame.h"
+#include "system/machine_observer.h"
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
 
@@ -23,6 +25,11 @@ namespace sheaf {
 /// SIGINT and SIGTERM ask the run to end with what it has; a second one ends the process.
 void catch_interrupts();
 [[nodiscard]] bool interrupted();
+
+/// Loads a scene as the configuration has it, with notes on standard error, and prepares it.
+/// Throws Error for what the user can mend.
+[[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,
+                                          const std::optional<std::filesystem::path>& trees);
 
 /// Something that takes part in a run: a recorder, or a trace in the shader's place.
 class FrameGuest {
@@ -44,6 +51,7 @@ struct FrameJob {
   /// Called once the scene is loaded; may be null.
   std::function<std::unique_ptr<FrameGuest>(const PreparedScene&, Frame&)> guest;
   std::optional<std::filesystem::path> trees = {};  ///< folder of the TreeCache; none: no cache
+  std::vector<MachineObserver*> observers = {};     ///< of a timed run
 };
 
 /// Loads the scene, builds, simulates and writes the result folder. Returns an exit code; throws

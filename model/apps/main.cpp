@@ -9,13 +9,18 @@
 #include <new>
 #include <systemc>
 
+#include "apps/accuracy_command.h"
+#include "apps/coefficients_command.h"
 #include "apps/curve_command.h"
 #include "apps/memory_command.h"
+#include "apps/observation.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
+#include "apps/stability_command.h"
 #include "apps/trace_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
+#include "energy/energy_report.h"
 #include "stats/counter_group.h"
 #include "system/report_parts.h"
 
@@ -29,9 +34,11 @@ constexpr const char* kFooter =
 struct Commands {
   sheaf::RunOptions run;
   sheaf::MemoryOptions memory;
+  sheaf::AccuracyOptions accuracy;
   sheaf::ReplayOptions replay;
   sheaf::TraceOptions trace;
   sheaf::CurveOptions curve;
+  sheaf::StabilityOptions stability;
   std::string info_scene;
   bool schema = false;
   bool resolve = false;
@@ -107,15 +114,18 @@ void declare(CLI::App& app, Commands& commands) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->check(CLI::IsMember({"rays", "memory"}));
+  sheaf::declare_observation(*run, commands.run.watch);
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
   declare_parent(*run, commands.run);
   run->footer(kFooter);
 
   sheaf::declare_memory_command(app, commands.memory);
+  sheaf::declare_accuracy_command(app, commands.accuracy);
   declare_replay(app, commands.replay);
   sheaf::declare_trace_command(app, commands.trace);
   sheaf::declare_curve_command(app, commands.curve);
+  sheaf::declare_stability_command(app, commands.stability);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
   info->add_option("SCENE", commands.info_scene, "glTF 2.0 file (.gltf or .glb)")->required();
@@ -130,6 +140,7 @@ void declare(CLI::App& app, Commands& commands) {
   declare_machine(*config, commands.resolved);
   for (const char* setting : {"--config", "--set"}) config->get_option(setting)->needs(resolve);
   app.add_subcommand("counters", "Print every counter with unit and meaning");
+  sheaf::declare_coefficients_command(app);
 }
 
 std::string config_output(const Commands& commands) {
@@ -138,18 +149,27 @@ std::string config_output(const Commands& commands) {
   return sheaf::describe_parameters();
 }
 
+std::string counters_output() {
+  const std::span<const sheaf::CounterGroup> counted = sheaf::counter_groups();
+  std::vector<sheaf::CounterGroup> groups(counted.begin(), counted.end());
+  const std::vector<sheaf::CounterGroup> energy = sheaf::energy_groups();
+  groups.insert(groups.end(), energy.begin(), energy.end());
+  return sheaf::print_counters(groups);
+}
+
 int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("run")) return sheaf::run_command(commands.run);
+  if (app.got_subcommand("accuracy")) return sheaf::accuracy_command(commands.accuracy);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
   if (app.got_subcommand("trace")) return sheaf::trace_command(commands.trace);
   if (app.got_subcommand("curve")) return sheaf::curve_command(commands.curve);
+  if (app.got_subcommand("stability")) return sheaf::stability_command(commands.stability);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
-  if (app.got_subcommand("config")) {
-    std::fputs(config_output(commands).c_str(), stdout);
-  } else {
-    std::fputs(sheaf::print_counters(sheaf::counter_groups()).c_str(), stdout);
-  }
+  if (app.got_subcommand("coefficients")) return sheaf::coefficients_command();
+  std::fputs(
+      app.got_subcommand("config") ? config_output(commands).c_str() : counters_output().c_str(),
+      stdout);
   return 0;
 }
 

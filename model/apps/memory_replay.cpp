@@ -21,9 +21,10 @@
 namespace sheaf {
 
 bool shapes_memory_only(std::string_view key) {
-  constexpr std::array<std::string_view, 10> kGroups{
-      "node_cache.", "triangle_cache.", "attribute_cache.", "texture_cache.",  "film_cache.",
-      "l2.",         "dram.",           "link.memory_",     "clock.frequency", "run.max_cycles"};
+  constexpr std::array<std::string_view, 11> kGroups{
+      "crossbar.",     "node_cache.", "triangle_cache.", "attribute_cache.", "texture_cache.",
+      "film_cache.",   "l2.",         "dram.",           "link.memory_",     "clock.frequency",
+      "run.max_cycles"};
   return std::ranges::any_of(kGroups, [&](std::string_view g) { return key.starts_with(g); });
 }
 

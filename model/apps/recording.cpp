@@ -24,10 +24,19 @@ bool wants(const std::vector<std::string>& kinds, const char* kind) {
 }  // namespace
 
 void check_recording(const std::vector<std::string>& kinds, const Config& config) {
+  if (!kinds.empty() && config.run.fidelity == Fidelity::kSampled) {
+    throw Error(ExitCode::kUsage,
+                "--record: a sampled run is not recorded; set another run.fidelity");
+  }
   if (wants(kinds, "memory") && config.run.fidelity != Fidelity::kTimed) {
     throw Error(ExitCode::kUsage,
                 "--record memory: accesses have cycles only where time is simulated; set "
                 "run.fidelity=timed");
+  }
+  if (wants(kinds, "memory") && config.flow.control == FlowPolicy::kSpill) {
+    throw Error(ExitCode::kUsage,
+                "--record memory: the traffic of spilled rays is not recorded; set "
+                "flow.control=tile or credits");
   }
 }
 

@@ -80,6 +80,11 @@ std::filesystem::path scene_file(const ReplayOptions& options, const TraceMetada
 
 int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
   const Config config = replay_config(options, metadata, "rays", shapes_rays);
+  if (config.run.fidelity == Fidelity::kSampled) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: a sampled run replays no trace; set another run.fidelity",
+                            options.trace.string()));
+  }
   const std::filesystem::path scene = scene_file(options, metadata);
   ResultFolder folder(options.out.empty() ? "result/replay" : options.out);
   FrameJob job{config, scene, metadata.scene_name, false, options.quiet, {}};

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "apps/frame_run.h"
+#include "apps/observation.h"
 #include "apps/parent_death.h"
 #include "apps/recording.h"
 #include "base/errors.h"
@@ -33,16 +34,21 @@ int run_command(const RunOptions& options) {
   // Refused before the scene is loaded.
   static_cast<void>(HeuristicChoice::parse(config.ray_cache.heuristic));
   check_recording(options.record, config);
+  check_observation(options.watch, config);
   catch_interrupts();
   ResultFolder folder(output_folder(options));
   FrameJob job{config, options.scene, options.scene.filename().string(), true, options.quiet, {}};
   job.trees = tree_folder(options.cache);
+  Observation observation(options.watch, folder);
+  job.observers = observation.observers();
   if (!options.record.empty()) {
     job.guest = [&](const PreparedScene& scene, Frame& frame) {
       return std::make_unique<Recording>(options, config, scene, frame, folder);
     };
   }
-  return run_frame(job, folder);
+  const int status = run_frame(job, folder);
+  observation.tell();
+  return status;
 }
 
 std::string resolved_config(const RunOptions& options) {

@@ -2,12 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sheaf {
+
+/// What else is to be written of a run, cycle by cycle.
+struct WatchOptions {
+  bool timeline = false;
+  std::string vcd;     ///< a unit's name; empty: none
+  std::string window;  ///< cycles, as WatchWindow::parse has them; empty: all
+  std::uint64_t every = 1;
+  std::uint64_t max_events = 1'000'000;
+};
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -18,6 +28,7 @@ struct RunOptions {
   std::vector<std::string> record;    ///< kinds of trace to be written: rays, memory
   bool quiet = false;                 ///< no summary on standard output
   std::optional<int> parent;          ///< process with which the run is to end
+  WatchOptions watch;
 };
 
 /// `sheaf run`: loads, builds, simulates and writes the result folder. Returns an exit code; throws

@@ -16,14 +16,15 @@ enum class DataKind : std::uint8_t {
   kTriangle,   ///< corners that the intersection unit tests
   kAttribute,  ///< shading data: vertex normals and UVs, materials
   kTexture,    ///< texels
-  kPixel       ///< frame buffer
+  kPixel,      ///< frame buffer
+  kSpilledRay  ///< spawned rays that had no place on chip
 };
-inline constexpr std::size_t kNumDataKinds = 6;
+inline constexpr std::size_t kNumDataKinds = 7;
 
 /// The kind's name in counters and reports.
 [[nodiscard]] constexpr std::string_view to_string(DataKind kind) {
-  constexpr std::array<std::string_view, kNumDataKinds> kNames{"node",      "leaf_list", "triangle",
-                                                               "attribute", "texture",   "pixel"};
+  constexpr std::array<std::string_view, kNumDataKinds> kNames{
+      "node", "leaf_list", "triangle", "attribute", "texture", "pixel", "spilled_ray"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channels/clock_domain.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/errors.h"
+
 namespace sheaf {
 namespace {
 
@@ -14,7 +20,8 @@ constexpr std::uint64_t kMonitorInterval = 1U << 14;
 void Lookahead::bind(const ClockDomain& domain, const std::vector<std::size_t>& last,
                      std::size_t agent) {
   calendar_ = &domain.calendar();
-  const Reach reach = domain.reach(last, agent);
+  Reach reach = domain.reach(last, agent);
+  for (Cycles& distance : reach) distance += domain.quantum();
   others_ = LinkMap::kFarAway;
   nearest_ = *std::min_element(reach.begin(), reach.end());
   for (std::size_t from = 0; from < reach.size(); ++from) {
@@ -28,9 +35,19 @@ void Lookahead::bind(const ClockDomain& domain, const std::vector<std::size_t>& 
 }
 
 ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
-    : sc_module(name), period_(period) {
+    : sc_module(name),
+      period_(period),
+      last_cycle_(std::numeric_limits<sc_dt::uint64>::max() / period.value()) {
   SC_HAS_PROCESS(ClockDomain);
   SC_METHOD(advance);
+}
+
+void ClockDomain::refuse_time(Cycles now) const {
+  throw Error(ExitCode::kUsage,
+              fmt::format("clock.frequency = {:.3g} Hz: cycle {} lies beyond the {:.3g} s that "
+                          "simulated time can reach; choose a faster clock",
+                          1.0 / period_.to_seconds(), now,
+                          static_cast<double>(last_cycle_) * period_.to_seconds()));
 }
 
 std::size_t ClockDomain::add(Agent& agent) {
@@ -80,10 +97,22 @@ void ClockDomain::advance() {
   }
   for (;;) {
     const Cycles foreign = next_foreign_cycle();
-    run_until(foreign < end_ ? foreign : end_);
+    const bool kernel_is_late = kernel_follows_ && kernel_cycle_ < observed_;
+    const Cycles look_at = kernel_is_late || observed_ == kNever ? observed_ : observed_ + 1;
+    const Cycles limit = std::min({foreign, end_, look_at});
+    run_until(limit);
     if (stopped_) return finish();
     if (limit_ == 0) continue;  // the kernel was touched: ask it again how far to go
     const Cycles next = calendar_.next();
+    // A run ends with the last thing that happens; what would come behind it is not shown.
+    if (limit == look_at && (next != kNever || observed_ <= latest_)) {
+      if (kernel_is_late) {
+        next_trigger(offset(observed_));
+        return;
+      }
+      show(observed_);
+      continue;
+    }
     if (next == kNever && foreign == kNever) {
       ran_dry_ = true;
       return finish();
@@ -93,6 +122,26 @@ void ClockDomain::advance() {
     next_trigger(offset(foreign));
     return;
   }
+}
+
+void ClockDomain::observe(CycleObserver& observer) {
+  observers_.push_back(&observer);
+  kernel_follows_ = kernel_follows_ || observer.wants_kernel_time();
+  find_next_observed(0);
+}
+
+void ClockDomain::find_next_observed(Cycles from) {
+  observed_ = kNever;
+  for (CycleObserver* observer : observers_) {
+    observed_ = std::min(observed_, observer->next_observed(from));
+  }
+}
+
+void ClockDomain::show(Cycles cycle) {
+  for (CycleObserver* observer : observers_) {
+    if (observer->next_observed(cycle) == cycle) observer->observe(cycle);
+  }
+  find_next_observed(cycle + 1);
 }
 
 // The kernel's time has stayed behind; simulated time ends with the last thing that happened.

@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "channels/calendar.h"
+#include "channels/cycle_observer.h"
 #include "channels/lookahead.h"
 
 namespace sheaf {
@@ -34,8 +35,9 @@ class Agent {
 /// Units meet only through channels whose latency is at least one cycle, so agents due in the same
 /// cycle do not see each other's doing and their order is that of their registration. An agent may
 /// run ahead of the calendar to just below the next time at which any other agent is due, and
-/// further to just below the earliest time at which anything can reach it. The SystemC kernel is
-/// entered when another SystemC process has something to do, not once for every hand-over.
+/// further to just below the earliest time at which anything can reach it, which changes no result;
+/// a quantum lets it go further still, which does. The SystemC kernel is entered when another
+/// SystemC process has something to do, not once for every hand-over.
 class ClockDomain : public sc_core::sc_module {
  public:
   /// `period`: one clock cycle.
@@ -48,10 +50,14 @@ class ClockDomain : public sc_core::sc_module {
   void schedule(std::size_t agent, Cycles time) { calendar_.schedule(agent, time); }
 
   /// The running agent may act on its own at any cycle below this one.
-  [[nodiscard]] Cycles horizon() {
-    const Cycles next = calendar_.next();
-    return next < limit_ ? next : limit_;
+  [[nodiscard]] Cycles horizon() const {
+    return std::min(calendar_.first_due() + quantum_, limit_);
   }
+
+  /// Lets every agent run so many cycles further ahead than is exact. What reaches an agent late is
+  /// taken at its own time; nothing is lost. To be called before the simulation starts.
+  void set_quantum(Cycles quantum) { quantum_ = quantum; }
+  [[nodiscard]] Cycles quantum() const { return quantum_; }
 
   /// Something that agent `from` does can make `to` act `latency` cycles later, at the earliest. An
   /// agent that declares nothing is taken to be a cycle away from every other.
@@ -68,6 +74,9 @@ class ClockDomain : public sc_core::sc_module {
   void forbid_running_ahead() { in_step_ = true; }
   [[nodiscard]] bool in_step() const { return in_step_; }
 
+  /// Adds an observer; to be called before the simulation starts.
+  void observe(CycleObserver& observer);
+
   /// An agent did something at this cycle, which may lie ahead of the calendar.
   void happened(Cycles when) { latest_ = std::max(latest_, when); }
   /// The last cycle in which any agent did something.
@@ -82,8 +91,10 @@ class ClockDomain : public sc_core::sc_module {
 
   [[nodiscard]] const sc_core::sc_time& period() const { return period_; }
   /// The local time offset to pass along a TLM call made at cycle `now`.
+  /// Throws Error(kUsage) beyond what SystemC's 64 bits can say.
   [[nodiscard]] sc_core::sc_time offset(Cycles now) const {
-    return period_ * static_cast<double>(now - kernel_cycle_);
+    if (now > last_cycle_) refuse_time(now);
+    return sc_core::sc_time::from_value((now - kernel_cycle_) * period_.value());
   }
   /// The inverse: the cycle that lies `offset` after the time at which this domain was entered,
   /// rounded up.
@@ -110,20 +121,28 @@ class ClockDomain : public sc_core::sc_module {
   [[nodiscard]] std::uint64_t num_wakes() const { return num_wakes_; }
 
  private:
+  [[noreturn]] void refuse_time(Cycles now) const;
   void advance();
   void run_until(Cycles limit);
+  void show(Cycles cycle);
+  void find_next_observed(Cycles from);
   void finish();
   [[nodiscard]] Cycles next_foreign_cycle() const;
 
   const sc_core::sc_time period_;
+  const Cycles last_cycle_;  ///< that SystemC's time can reach
   Calendar calendar_;
   LinkMap links_;
   std::vector<Agent*> agents_;
+  std::vector<CycleObserver*> observers_;
+  Cycles observed_ = kNever;  ///< the next cycle to be observed
+  bool kernel_follows_ = false;
   std::function<bool(Cycles)> monitor_;
   Cycles now_ = 0;
   Cycles latest_ = 0;
   Cycles kernel_cycle_ = 0;  ///< sc_time_stamp() in cycles
   Cycles limit_ = 0;
+  Cycles quantum_ = 0;
   Cycles end_ = kNever;
   std::uint64_t num_wakes_ = 0;
   bool stopped_ = false;
@@ -133,7 +152,7 @@ class ClockDomain : public sc_core::sc_module {
 };
 
 /// The earliest time at which something can come over the links from some agents, for an agent that
-/// is acting at the moment.
+/// is acting at the moment; later by the domain's quantum.
 class Lookahead {
  public:
   /// Once all links have been declared; `last`: the agents at the other end of these links.

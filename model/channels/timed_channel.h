@@ -129,6 +129,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   T read(Cycles now) {
     if (spec_.capacity != kUnbounded || size_ > max_size_) note_occupancy(now);
     const T value = ring_[head_].value;
+    occupancy_cycles_ += now - ring_[head_].ready;
     last_arrival_ = this->next_arrival_;
     head_ = (head_ + 1) & (ring_.size() - 1);
     --size_;
@@ -147,10 +148,21 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Of these, the ones written by `now`.
+  [[nodiscard]] std::size_t num_held(Cycles now) const {
+    std::size_t held = size_;
+    while (held != 0 && at(held - 1).ready > now) --held;
+    return held;
+  }
+  /// The i-th value from the back, 0 the newest; there must be that many.
+  [[nodiscard]] const T& from_back(std::size_t i) const { return at(size_ - 1 - i).value; }
   /// Most values held at the beginning of a cycle in which one was read, which is the most ever
   /// held, since their number only grows between two reads.
   [[nodiscard]] std::size_t max_size() const { return max_size_; }
   [[nodiscard]] std::uint64_t num_written() const { return num_written_; }
+  /// Values held, summed over all cycles: as well the time from writing to reading, summed over
+  /// values.
+  [[nodiscard]] Cycles occupancy_cycles() const { return occupancy_cycles_; }
   [[nodiscard]] const Spec& spec() const { return spec_; }
 
  private:
@@ -198,6 +210,9 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   [[nodiscard]] Entry& at(std::size_t position) {
     return ring_[(head_ + position) & (ring_.size() - 1)];
   }
+  [[nodiscard]] const Entry& at(std::size_t position) const {
+    return ring_[(head_ + position) & (ring_.size() - 1)];
+  }
   // Values that a producer ahead in time has written do not count yet; those that one behind in
   // time writes later are counted then.
   void note_occupancy(Cycles now) {
@@ -242,6 +257,7 @@ class TimedChannel final : public sc_core::sc_object, public TimedOut<T>, public
   std::size_t num_returning_ = 0;
   Cycles last_arrival_ = kNever;  ///< of the value read last
   std::uint64_t num_written_ = 0;
+  Cycles occupancy_cycles_ = 0;
 };
 
 }  // namespace sheaf

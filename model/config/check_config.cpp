@@ -9,10 +9,12 @@
 #include <array>
 #include <bit>
 #include <string_view>
+#include <utility>
 
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "config/dram/device.h"
+#include "config/parameters.h"
 #include "config/quantities.h"
 
 namespace sheaf {
@@ -32,41 +34,81 @@ void check_power_of_two(const std::string& key, std::uint64_t value, const std::
 
 /// Set-associative geometry: whole sets, and a power of two of them, so that the set is a field of
 /// the address.
-void check_sets(const std::string& name, Bytes capacity, Bytes line, std::uint64_t ways,
-                std::uint64_t banks) {
-  const Bytes row = line * ways * banks;
-  const std::string terms = banks > 1 ? "line x ways x banks" : "line x ways";
-  if (capacity % row != 0) {
-    refuse(fmt::format("{}.capacity = {} must be a multiple of {} = {}", name,
-                       format_bytes(capacity), terms, format_bytes(row)));
+template <typename Spec>
+void check_sets(const std::string& name, const Spec& spec, std::uint64_t banks) {
+  if (spec.capacity > kMaxCacheBytes) {
+    refuse(fmt::format("{}.sets = {} makes a capacity of {}; at most {} are possible", name,
+                       spec.sets, format_bytes(spec.capacity), format_bytes(kMaxCacheBytes)));
   }
-  if (!std::has_single_bit(capacity / row)) {
+  const Bytes row = spec.line * spec.ways * banks;
+  const std::string terms = banks > 1 ? "line x ways x banks" : "line x ways";
+  if (spec.capacity % row != 0) {
+    refuse(fmt::format("{}.capacity = {} must be a multiple of {} = {}", name,
+                       format_bytes(spec.capacity), terms, format_bytes(row)));
+  }
+  if (!std::has_single_bit(spec.capacity / row)) {
     refuse(fmt::format("{}.capacity = {} over {} = {} makes {} sets, which must be a power of two",
-                       name, format_bytes(capacity), terms, format_bytes(row), capacity / row));
+                       name, format_bytes(spec.capacity), terms, format_bytes(row),
+                       spec.capacity / row));
+  }
+}
+
+// The tree of bits of a set is kept in one word.
+constexpr std::uint32_t kMostPlruWays = 64;
+constexpr Bytes kSmallestSector = 16;
+
+template <typename Spec>
+void check_cache(const std::string& name, const Spec& spec) {
+  check_power_of_two(name + ".line", spec.line, format_bytes(spec.line));
+  check_power_of_two(name + ".banks", spec.banks, fmt::format("{}", spec.banks));
+  check_power_of_two(name + ".sectors", spec.sectors, fmt::format("{}", spec.sectors));
+  if (spec.line / spec.sectors < kSmallestSector) {
+    refuse(
+        fmt::format("{}.sectors = {} makes sectors of {} of a line of {}; at least {} are needed",
+                    name, spec.sectors, format_bytes(spec.line / spec.sectors),
+                    format_bytes(spec.line), format_bytes(kSmallestSector)));
+  }
+  if (spec.sets != 0) check_power_of_two(name + ".sets", spec.sets, fmt::format("{}", spec.sets));
+  if (spec.replacement == Replacement::kPlru &&
+      (!std::has_single_bit(spec.ways) || spec.ways > kMostPlruWays)) {
+    refuse(fmt::format("{}.ways = {} must be a power of two up to {} with replacement = plru", name,
+                       spec.ways, kMostPlruWays));
   }
 }
 
 void check_private_cache(const std::string& name, const CacheSpec& spec, const L2Spec& l2) {
   if (spec.mode == CacheMode::kPerfect) return;
-  check_power_of_two(name + ".line", spec.line, format_bytes(spec.line));
+  check_cache(name, spec);
   if (l2.mode == CacheMode::kNormal && spec.line > l2.line) {
     refuse(fmt::format("{}.line = {} must not be larger than l2.line = {}", name,
                        format_bytes(spec.line), format_bytes(l2.line)));
   }
-  if (spec.mode == CacheMode::kNormal) check_sets(name, spec.capacity, spec.line, spec.ways, 1);
+  if (l2.mode == CacheMode::kNormal && spec.line / spec.sectors > l2.line / l2.sectors) {
+    refuse(fmt::format("{}.line / sectors = {} must not be larger than l2.line / sectors = {}",
+                       name, format_bytes(spec.line / spec.sectors),
+                       format_bytes(l2.line / l2.sectors)));
+  }
+  if (spec.mode == CacheMode::kNormal) check_sets(name, spec, 1);
+}
+
+void check_crossbar(const CrossbarSpec& spec) {
+  if (spec.depth != 0 && spec.request_width == 0) {
+    refuse(
+        fmt::format("crossbar.depth = {} needs a crossbar.request_width; without one nothing "
+                    "waits",
+                    spec.depth));
+  }
 }
 
 void check_memory(const Config& c) {
-  if (c.l2.mode == CacheMode::kNormal) {
-    check_power_of_two("l2.line", c.l2.line, format_bytes(c.l2.line));
-    check_power_of_two("l2.banks", c.l2.banks, fmt::format("{}", c.l2.banks));
-    check_sets("l2", c.l2.capacity, c.l2.line, c.l2.ways, c.l2.banks);
-  }
+  if (c.l2.mode != CacheMode::kPerfect) check_cache("l2", c.l2);
+  if (c.l2.mode == CacheMode::kNormal) check_sets("l2", c.l2, c.l2.banks);
   check_private_cache("node_cache", c.node_cache, c.l2);
   check_private_cache("triangle_cache", c.triangle_cache, c.l2);
   check_private_cache("attribute_cache", c.attribute_cache, c.l2);
   check_private_cache("texture_cache", c.texture_cache, c.l2);
   check_private_cache("film_cache", c.film_cache, c.l2);
+  check_crossbar(c.crossbar);
   if (c.dram.model != DramModel::kFixed) static_cast<void>(resolve_dram(c.dram));
 }
 
@@ -89,6 +131,36 @@ void check_view(const Config& c) {
   }
   if (c.light.intensity && !c.light.position) {
     refuse("light.intensity belongs to the light of light.position, which is off; set both");
+  }
+}
+
+// What the reference that ticks every cycle does not have.
+void check_clocked(const Config& c) {
+  const auto needs = [](bool holds, const std::string& setting) {
+    if (!holds) refuse(fmt::format("run.fidelity = clocked models only {}", setting));
+  };
+  needs(c.flow.control != FlowPolicy::kSpill, "flow.control = tile and credits");
+  needs(c.crossbar.request_width == 0, "crossbar.request_width = 0");
+  needs(c.crossbar.response_width == 0, "crossbar.response_width = 0");
+  const auto plain = [&](const std::string& name, const auto& cache, bool allocates) {
+    needs(cache.sectors == 1, name + ".sectors = 1");
+    needs(cache.ports == 1, name + ".ports = 1");
+    needs(cache.mshr_targets == 0, name + ".mshr_targets = 0");
+    needs(cache.write.policy == WritePolicy::kBack, name + ".write_policy = back");
+    needs(cache.write.allocate == allocates,
+          fmt::format("{}.write_allocate = {}", name, allocates));
+    needs(cache.write.buffer == 0, name + ".write_buffer = 0");
+  };
+  plain("l2", c.l2, false);
+  const std::array<std::pair<const char*, const CacheSpec*>, 5> caches{
+      {{"node_cache", &c.node_cache},
+       {"triangle_cache", &c.triangle_cache},
+       {"attribute_cache", &c.attribute_cache},
+       {"texture_cache", &c.texture_cache},
+       {"film_cache", &c.film_cache}}};
+  for (const auto& [name, cache] : caches) {
+    plain(name, *cache, true);
+    needs(cache->banks == 1, std::string(name) + ".banks = 1");
   }
 }
 
@@ -115,10 +187,19 @@ std::vector<std::string> heat_map_names(const ImageSpec& image) {
   return names;
 }
 
+void derive_capacities(Config& c) {
+  for (CacheSpec* cache :
+       {&c.node_cache, &c.triangle_cache, &c.attribute_cache, &c.texture_cache, &c.film_cache}) {
+    if (cache->sets != 0) cache->capacity = cache->sets * cache->line * cache->ways;
+  }
+  if (c.l2.sets != 0) c.l2.capacity = c.l2.sets * c.l2.line * c.l2.ways * c.l2.banks;
+}
+
 void check_config(const Config& config) {
   check_memory(config);
   check_flow(config);
   check_view(config);
+  if (config.run.fidelity == Fidelity::kClocked) check_clocked(config);
   static_cast<void>(heat_map_names(config.image));
 }
 

@@ -9,6 +9,9 @@
 
 namespace sheaf {
 
+/// Sets the capacity of every cache whose sets are given.
+void derive_capacities(Config& config);
+
 /// Refuses combinations of values that no machine can have, each of them in range by itself: throws
 /// Error(kUsage) with one line naming the keys and the rule that they break. The heuristic's text
 /// is checked where heuristics are made.

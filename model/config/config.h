@@ -14,15 +14,24 @@ namespace sheaf {
 // The structs below only hold values: names, defaults, ranges, units and meanings of all parameters
 // are declared in parameters.cpp, and `sheaf config` prints them.
 
-enum class Fidelity : std::uint8_t { kFunctional, kTimed };
+enum class Fidelity : std::uint8_t {
+  kFunctional,
+  kAnalytic,
+  kSampled,
+  kDecoupled,
+  kTimed,
+  kClocked
+};
 enum class Scheme : std::uint8_t { kSingle, kMasked, kInterval, kIntervalEntry, kOmni };
-enum class FlowPolicy : std::uint8_t { kTile, kCredits };
+enum class FlowPolicy : std::uint8_t { kTile, kCredits, kSpill };
 enum class VictimPolicy : std::uint8_t { kFullest, kOldest, kLru };
 enum class RayOrder : std::uint8_t { kArrival, kBreadthFirst };
 enum class ShaderCacheKey : std::uint8_t { kMaterial, kTexture };
 enum class ArbiterPolicy : std::uint8_t { kAlternate, kPrimaryFirst, kSecondaryFirst };
 enum class FilmFormat : std::uint8_t { kUnorm8, kHalf, kFloat, kExact };
 enum class CacheMode : std::uint8_t { kNormal, kPerfect, kAbsent };
+enum class Replacement : std::uint8_t { kLru, kPlru, kFifo, kRandom };
+enum class WritePolicy : std::uint8_t { kBack, kThrough };
 enum class MeasureScope : std::uint8_t { kTile, kFrame };
 
 struct Triple {
@@ -32,6 +41,9 @@ struct Triple {
 
 struct RunSpec {
   Fidelity fidelity{};
+  Cycles quantum{};
+  double sample_share{};
+  std::uint64_t sample_seed{};
   Cycles max_cycles{};
   bool keep_all{};
 };
@@ -71,6 +83,7 @@ struct FlowSpec {
   FlowPolicy control{};
   std::uint32_t tile_size{};
   std::uint32_t credits{};
+  std::uint32_t spill_queue{};  ///< rays
 };
 
 struct PacketSpec {
@@ -125,18 +138,46 @@ struct LinkSpec {
   Bytes memory_width{};
 };
 
+/// What a cache does about writes.
+struct WriteSpec {
+  WritePolicy policy{};
+  bool allocate{};
+  std::uint32_t buffer{};  ///< writes that may be under way to the next level; 0: any number
+};
+
+/// A private cache. Once resolved, the capacity is that of all sets.
 struct CacheSpec {
   CacheMode mode{};
   Bytes capacity{}, line{};
-  std::uint32_t ways{}, mshrs{};
+  std::uint32_t ways{}, banks{1}, mshrs{};
   Cycles hit_latency{};
+  std::uint64_t sets{};  ///< 0: as the capacity has it
+  std::uint32_t sectors{1}, ports{1};
+  std::uint32_t mshr_targets{};  ///< 0: any number
+  Replacement replacement{};
+  std::uint64_t seed{};
+  WriteSpec write{.policy = {}, .allocate = true, .buffer = {}};  ///< of the film's
 };
 
+/// The second level; sets, ports and MSHRs are those of one bank.
 struct L2Spec {
   CacheMode mode{};
   Bytes capacity{}, line{};
-  std::uint32_t ways{}, banks{}, mshrs{};
+  std::uint32_t ways{}, banks{1}, mshrs{};
   Cycles hit_latency{};
+  std::uint64_t sets{};  ///< 0: as the capacity has it
+  std::uint32_t sectors{1}, ports{1};
+  std::uint32_t mshr_targets{};  ///< 0: any number
+  Replacement replacement{};
+  std::uint64_t seed{};
+  WriteSpec write{};
+};
+
+/// Between the private caches and the banks of the L2; a width of 0 never holds anything up.
+struct CrossbarSpec {
+  Bytes request_width{};   ///< of written data, a cycle, from one cache and into one bank
+  Bytes response_width{};  ///< a cycle, out of one bank
+  std::uint32_t depth{};   ///< requests that wait before one bank; 0: any number
 };
 
 struct FilmSpec {
@@ -172,6 +213,7 @@ struct Config {
   ShaderCacheSpec shader_cache;
   UnitSpec traversal_unit, intersection_unit, shader_unit;
   LinkSpec link;
+  CrossbarSpec crossbar;
   CacheSpec node_cache, triangle_cache, attribute_cache, texture_cache, film_cache;
   L2Spec l2;
   DramSpec dram;

@@ -8,9 +8,24 @@ namespace sheaf {
 namespace {
 
 void declare_run(ParameterTable& t, Config& c) {
-  t.choice("run.fidelity", c.run.fidelity, Fidelity::kTimed,
-           {{"functional", Fidelity::kFunctional}, {"timed", Fidelity::kTimed}},
-           "How much of time is simulated: none (same pipeline, untimed), or event-driven cycles");
+  t.choice(
+      "run.fidelity", c.run.fidelity, Fidelity::kTimed,
+      {{"functional", Fidelity::kFunctional},
+       {"analytic", Fidelity::kAnalytic},
+       {"sampled", Fidelity::kSampled},
+       {"decoupled", Fidelity::kDecoupled},
+       {"timed", Fidelity::kTimed},
+       {"clocked", Fidelity::kClocked}},
+      "How much of time is simulated: none (same pipeline, untimed); none, with bounds on the "
+      "cycles from counts; a random sample of tiles; event-driven cycles with units that run "
+      "ahead by run.quantum; event-driven cycles; or every unit ticking in every cycle, which is "
+      "the reference and slow");
+  t.count("run.quantum", c.run.quantum, 16, 0, kMaxLatency, "cycles",
+          "decoupled: how much further units run ahead of each other than is exact");
+  t.real("run.sample_share", c.run.sample_share, 0.1, 1e-6, 1.0, "1",
+         "sampled: share of the tiles that is simulated in time");
+  t.count("run.sample_seed", c.run.sample_seed, 1, 0, kMaxCount, "",
+          "sampled: seed of the choice of tiles");
   t.count("run.max_cycles", c.run.max_cycles, 0, 0, kMaxCount, "cycles",
           "End the run, marked as partial, after this many cycles; 0 = no limit");
   t.flag("run.keep_all", c.run.keep_all, false,
@@ -55,12 +70,18 @@ void declare_pipeline(ParameterTable& t, Config& c) {
            "interval for all of a direction octant, from the root or from an entry point searched "
            "first; or with an active mask in one pass, whatever the directions");
   t.choice("flow.control", c.flow.control, FlowPolicy::kTile,
-           {{"tile", FlowPolicy::kTile}, {"credits", FlowPolicy::kCredits}},
-           "What keeps the spawned rays within bounds: finishing a tile before the next begins, or "
-           "admitting a primary packet only when its worst case fits");
+           {{"tile", FlowPolicy::kTile},
+            {"credits", FlowPolicy::kCredits},
+            {"spill", FlowPolicy::kSpill}},
+           "What keeps the spawned rays within bounds: finishing a tile before the next begins; "
+           "admitting a primary packet only when its worst case fits; or moving what the queue "
+           "before the ray cache cannot hold to memory and back");
   t.count("flow.tile_size", c.flow.tile_size, 16, 1, 1024, "pixels", "Side of a square tile");
   t.count("flow.credits", c.flow.credits, 0, 0, kMaxCount, "rays",
           "Worst-case rays that credits flow control admits; 0 = the worst case of one tile");
+  t.count(
+      "flow.spill_queue", c.flow.spill_queue, 128, 1, 65536, "rays",
+      "Rays that spill flow control keeps on chip before the ray cache; the others go to memory");
   t.count("primary_source.interval", c.primary_source.interval, 4, 1, kMaxLatency, "cycles",
           "Cycles between two primary packets");
   t.choice("packet_arbiter.policy", c.packet_arbiter.policy, ArbiterPolicy::kAlternate,
@@ -150,24 +171,75 @@ void declare_units(ParameterTable& t, Config& c) {
            "Number format in which a pixel's contributions are accumulated");
 }
 
-void declare_cache(ParameterTable& t, const std::string& name, CacheSpec& spec,
-                   const CacheSpec& defaults, const std::string& meaning) {
+// So many lines of any size that no capacity wraps in 64 bits.
+constexpr std::uint64_t kMostSets = std::uint64_t{1} << 26;
+
+// What private caches and the L2 share.
+template <typename Spec>
+void declare_cache(ParameterTable& t, const std::string& name, Spec& spec, const Spec& defaults,
+                   const std::string& meaning, Bytes smallest, const std::string& capacity,
+                   const std::string& line) {
   t.choice(name + ".mode", spec.mode, CacheMode::kNormal,
            {{"normal", CacheMode::kNormal},
             {"perfect", CacheMode::kPerfect},
             {"absent", CacheMode::kAbsent}},
            meaning + ": normal, always hitting, or not there");
-  t.bytes(name + ".capacity", spec.capacity, defaults.capacity, 16, kMaxCacheBytes,
-          "Capacity of one instance");
-  t.bytes(name + ".line", spec.line, defaults.line, 16, 4096, "Line size; a power of two");
-  t.count(name + ".ways", spec.ways, defaults.ways, 1, 1024, "ways", "Associativity (LRU)");
+  t.bytes(name + ".capacity", spec.capacity, defaults.capacity, smallest, kMaxCacheBytes, capacity);
+  t.bytes(name + ".line", spec.line, defaults.line, 16, 4096, line);
+  t.count(name + ".sets", spec.sets, 0, 0, kMostSets, "sets",
+          "Sets of a bank, a power of two, which then make the capacity; 0 = as the capacity has "
+          "it");
+  t.count(name + ".ways", spec.ways, defaults.ways, 1, 1024, "ways", "Associativity");
+  t.choice(name + ".replacement", spec.replacement, defaults.replacement,
+           {{"lru", Replacement::kLru},
+            {"plru", Replacement::kPlru},
+            {"fifo", Replacement::kFifo},
+            {"random", Replacement::kRandom}},
+           "Which line of a set leaves: the least recently used, about that one (a tree of bits), "
+           "the one that came first, or any");
+  t.count(name + ".seed", spec.seed, 1, 0, kMaxCount, "1", "Seed of random replacement");
+  t.count(name + ".sectors", spec.sectors, defaults.sectors, 1, 32, "sectors",
+          "Parts of a line that are fetched and written one by one; a power of two");
+  t.count(name + ".mshr_targets", spec.mshr_targets, 0, 0, 4096, "accesses",
+          "Accesses that can wait for one outstanding line; 0 = any number");
+}
+
+void declare_private_cache(ParameterTable& t, const std::string& name, CacheSpec& spec,
+                           const CacheSpec& defaults, const std::string& meaning) {
+  declare_cache(t, name, spec, defaults, meaning, 16, "Capacity of one instance",
+                "Line size; a power of two");
+  t.count(name + ".banks", spec.banks, 1, 1, 64, "banks",
+          "Banks, interleaved by line; a power of two");
+  t.count(name + ".ports", spec.ports, 1, 1, 64, "ports",
+          "Look-ups that one bank takes in a cycle");
   t.count(name + ".mshrs", spec.mshrs, defaults.mshrs, 1, 4096, "lines",
           "Lines that can be outstanding at a time");
   t.count(name + ".hit_latency", spec.hit_latency, defaults.hit_latency, 1, kMaxLatency, "cycles",
           "Latency of a hit");
 }
 
-void declare_memory(ParameterTable& t, Config& c) {
+void declare_writes(ParameterTable& t, const std::string& name, WriteSpec& spec,
+                    const WriteSpec& defaults, const std::string& allocate) {
+  t.choice(name + ".write_policy", spec.policy, defaults.policy,
+           {{"back", WritePolicy::kBack}, {"through", WritePolicy::kThrough}},
+           "Written data go to the next level when their line leaves, or at once");
+  t.flag(name + ".write_allocate", spec.allocate, defaults.allocate, allocate);
+  t.count(name + ".write_buffer", spec.buffer, defaults.buffer, 0, 4096, "writes",
+          "Writes under way to the next level at which no more accesses are taken; 0 = any number");
+}
+
+void declare_crossbar(ParameterTable& t, CrossbarSpec& spec) {
+  t.bytes("crossbar.request_width", spec.request_width, 0, 0, 4096,
+          "Bytes a cycle of written data from one private cache and into one bank of the L2; a "
+          "read takes one cycle of both; 0 = any number of requests in any cycle");
+  t.count("crossbar.depth", spec.depth, 0, 0, 4096, "requests",
+          "Requests that wait before one bank of the L2, with a request_width; the next ones hold "
+          "up their cache's later ones; 0 = any number");
+  t.bytes("crossbar.response_width", spec.response_width, 0, 0, 4096,
+          "Bytes a cycle that one bank of the L2 returns; 0 = any number");
+}
+
+void declare_private_caches(ParameterTable& t, Config& c) {
   const CacheSpec l1{.mode = CacheMode::kNormal,
                      .capacity = 16384,
                      .line = 64,
@@ -176,27 +248,36 @@ void declare_memory(ParameterTable& t, Config& c) {
                      .hit_latency = 2};
   CacheSpec film = l1;
   film.capacity = 8192;
-  declare_cache(t, "node_cache", c.node_cache, l1, "kd-tree nodes, one per traversal unit");
-  declare_cache(t, "triangle_cache", c.triangle_cache, l1,
-                "Leaf lists and triangles, one per intersection unit");
-  declare_cache(t, "attribute_cache", c.attribute_cache, l1,
-                "Vertex attributes and materials, one per shader unit");
-  declare_cache(t, "texture_cache", c.texture_cache, l1, "Texels, one per shader unit");
-  declare_cache(t, "film_cache", c.film_cache, film, "Write-back cache of the film's pixels");
-  t.choice("l2.mode", c.l2.mode, CacheMode::kNormal,
-           {{"normal", CacheMode::kNormal},
-            {"perfect", CacheMode::kPerfect},
-            {"absent", CacheMode::kAbsent}},
-           "Shared second-level cache: normal, always hitting, or not there");
-  t.bytes("l2.capacity", c.l2.capacity, 524288, 64, kMaxCacheBytes, "Capacity over all banks");
-  t.bytes("l2.line", c.l2.line, 64, 16, 4096,
-          "Line size; a power of two, at least the largest private line");
-  t.count("l2.ways", c.l2.ways, 8, 1, 1024, "ways", "Associativity (LRU)");
-  t.count("l2.banks", c.l2.banks, 4, 1, 64, "banks",
-          "Banks, interleaved by line; a power of two; each takes one request a cycle");
-  t.count("l2.mshrs", c.l2.mshrs, 16, 1, 4096, "lines", "Lines outstanding in one bank");
-  t.count("l2.hit_latency", c.l2.hit_latency, 12, 1, kMaxLatency, "cycles",
+  declare_private_cache(t, "node_cache", c.node_cache, l1, "kd-tree nodes, one per traversal unit");
+  declare_private_cache(t, "triangle_cache", c.triangle_cache, l1,
+                        "Leaf lists and triangles, one per intersection unit");
+  declare_private_cache(t, "attribute_cache", c.attribute_cache, l1,
+                        "Vertex attributes and materials, one per shader unit");
+  declare_private_cache(t, "texture_cache", c.texture_cache, l1, "Texels, one per shader unit");
+  declare_private_cache(t, "film_cache", c.film_cache, film, "The film's pixels");
+  declare_writes(t, "film_cache", c.film_cache.write, film.write,
+                 "Keep a line that was fetched for an addition; otherwise it is written on as soon "
+                 "as it has been added to, and nothing is kept");
+}
+
+void declare_l2(ParameterTable& t, L2Spec& l2) {
+  const L2Spec defaults{.mode = CacheMode::kNormal, .capacity = 524288, .line = 64, .ways = 8};
+  declare_cache(t, "l2", l2, defaults, "Shared second-level cache", 64, "Capacity over all banks",
+                "Line size; a power of two, at least the largest private line");
+  t.count("l2.banks", l2.banks, 4, 1, 64, "banks", "Banks, interleaved by line; a power of two");
+  t.count("l2.ports", l2.ports, 1, 1, 64, "ports", "Requests that one bank takes in a cycle");
+  t.count("l2.mshrs", l2.mshrs, 16, 1, 4096, "lines", "Lines outstanding in one bank");
+  t.count("l2.hit_latency", l2.hit_latency, 12, 1, kMaxLatency, "cycles",
           "From a bank's acceptance to the data");
+  declare_writes(t, "l2", l2.write, defaults.write,
+                 "Give a place to a line that is written and not there, fetching it unless all of "
+                 "it is written; otherwise the write goes on to DRAM");
+}
+
+void declare_memory(ParameterTable& t, Config& c) {
+  declare_private_caches(t, c);
+  declare_crossbar(t, c.crossbar);
+  declare_l2(t, c.l2);
   declare_dram(t, c.dram);
 }
 

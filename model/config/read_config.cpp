@@ -221,6 +221,7 @@ Config resolve_config(const std::optional<std::filesystem::path>& file,
   const ParameterTable parameters = declare_parameters(config);
   if (file) read_toml(parameters, read_text(*file), printable(file->string()));
   for (const std::string& setting : settings) apply_setting(parameters, setting);
+  derive_capacities(config);
   check_config(config);
   return config;
 }
@@ -232,6 +233,7 @@ Config resolve_config_over(const BaseConfig& base, const std::optional<std::file
   read_toml(parameters, base.toml, printable(base.place));
   if (file) read_toml(parameters, read_text(*file), printable(file->string()));
   for (const std::string& setting : settings) apply_setting(parameters, setting);
+  derive_capacities(config);
   check_config(config);
   return config;
 }

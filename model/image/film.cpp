@@ -11,8 +11,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "base/paged_array.h"
 #include "image/exact_sum.h"
 
 namespace sheaf {
@@ -92,21 +92,27 @@ class FilmOf final : public Film {
     if (!(valid(c.x) && valid(c.y) && valid(c.z))) {
       refuse(pixel, c);
     }
-    auto& channels = pixels_.at(pixel);
+    check_inside(pixel);
+    auto& channels = pixels_[pixel];
     channels[0].add(c.x);
     channels[1].add(c.y);
     channels[2].add(c.z);
   }
 
   [[nodiscard]] Vec3 value(std::uint32_t pixel) const override {
-    const auto& channels = pixels_.at(pixel);
+    check_inside(pixel);
+    const auto& channels = pixels_[pixel];
     return {channels[0].value(), channels[1].value(), channels[2].value()};
   }
 
   [[nodiscard]] Bytes bytes_per_pixel() const override { return Channel::kBytesPerPixel; }
 
  private:
-  std::vector<std::array<Channel, 3>> pixels_;
+  void check_inside(std::uint32_t pixel) const {
+    if (pixel >= pixels_.size()) throw std::out_of_range("film: a pixel outside the film");
+  }
+
+  PagedArray<std::array<Channel, 3>> pixels_;  ///< zero bytes are 0 in every format
 };
 
 }  // namespace

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/png.h"
 
-#include <stb_image_write.h>
+#include <png.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "image/file_output.h"
 #include "image/heat_color.h"
@@ -15,29 +17,50 @@
 namespace sheaf {
 namespace {
 
-constexpr int kChannels = 3;
+constexpr std::size_t kChannels = 3;
 
-void check_size(std::uint32_t width, std::uint32_t height, std::size_t num_pixels) {
-  if (num_pixels == 0 || num_pixels != std::size_t{width} * height) {
-    throw std::logic_error("png: the number of pixels is not width × height");
+/// libpng's writer of 8-bit RGB rows.
+class PngOutput {
+ public:
+  PngOutput(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height)
+      : file_(path), row_(width * kChannels) {
+    png_set_write_fn(
+        png_, &file_,
+        [](png_structp png, png_bytep bytes, std::size_t size) {
+          static_cast<FileOutput*>(png_get_io_ptr(png))->write({bytes, size});
+        },
+        [](png_structp) {});
+    png_set_IHDR(png_, info_, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png_, info_);
   }
-}
+  ~PngOutput() { png_destroy_write_struct(&png_, &info_); }
+  PngOutput(const PngOutput&) = delete;
+  PngOutput& operator=(const PngOutput&) = delete;
 
-void append(void* context, void* data, int size) {
-  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
-  const auto* first = static_cast<const std::uint8_t*>(data);
-  bytes.insert(bytes.end(), first, first + size);
-}
-
-std::vector<std::uint8_t> encode_rgb8(std::uint32_t width, std::uint32_t height,
-                                      const std::vector<std::uint8_t>& rgb) {
-  std::vector<std::uint8_t> bytes;
-  const int stride = static_cast<int>(width) * kChannels;
-  if (stbi_write_png_to_func(append, &bytes, static_cast<int>(width), static_cast<int>(height),
-                             kChannels, rgb.data(), stride) == 0) {
-    throw std::runtime_error("png: the encoder failed");
+  /// To be filled for the next write_row().
+  [[nodiscard]] std::uint8_t* pixel(std::size_t x) { return row_.data() + x * kChannels; }
+  void write_row() { png_write_row(png_, row_.data()); }
+  void close() {
+    png_write_end(png_, info_);
+    file_.close();
   }
-  return bytes;
+
+ private:
+  // Exceptions pass through libpng, which holds nothing that needs unwinding.
+  [[noreturn]] static void refuse(png_structp /*png*/, png_const_charp message) {
+    throw std::logic_error(std::string("png: ") + message);
+  }
+  static void ignore(png_structp /*png*/, png_const_charp /*message*/) {}
+
+  FileOutput file_;
+  png_structp png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, refuse, ignore);
+  png_infop info_ = png_create_info_struct(png_);
+  std::vector<std::uint8_t> row_;
+};
+
+void check_size(std::uint32_t width, std::uint32_t height) {
+  if (width == 0 || height == 0) throw std::logic_error("png: an image without pixels");
 }
 
 float counted(float value) {
@@ -52,42 +75,42 @@ std::uint8_t linear_to_srgb(float linear) {
   return static_cast<std::uint8_t>(encoded * 255.0F + 0.5F);
 }
 
-std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height,
-                                     std::span<const Vec3> pixels) {
-  check_size(width, height, pixels.size());
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(pixels.size() * kChannels);
-  for (const Vec3& pixel : pixels) {
-    rgb.insert(rgb.end(),
-               {linear_to_srgb(pixel.x), linear_to_srgb(pixel.y), linear_to_srgb(pixel.z)});
-  }
-  return encode_rgb8(width, height, rgb);
-}
-
-std::vector<std::uint8_t> encode_heat_map_png(std::uint32_t width, std::uint32_t height,
-                                              std::span<const float> values) {
-  check_size(width, height, values.size());
-  float largest = 0.0F;
-  for (const float value : values) {
-    largest = std::max(largest, counted(value));
-  }
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(values.size() * kChannels);
-  for (const float value : values) {
-    const auto color = heat_color(largest > 0.0F ? counted(value) / largest : 0.0F);
-    rgb.insert(rgb.end(), color.begin(), color.end());
-  }
-  return encode_rgb8(width, height, rgb);
-}
-
 void write_png(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-               std::span<const Vec3> pixels) {
-  write_file(path, encode_png(width, height, pixels));
+               const RowSource<Vec3>& rows) {
+  check_size(width, height);
+  PngOutput png(path, width, height);
+  std::vector<Vec3> row(width);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    rows(y, row);
+    for (std::size_t x = 0; x < width; ++x) {
+      for (int channel = 0; channel < 3; ++channel) {
+        png.pixel(x)[channel] = linear_to_srgb(row[x][channel]);
+      }
+    }
+    png.write_row();
+  }
+  png.close();
 }
 
 void write_heat_map_png(const std::filesystem::path& path, std::uint32_t width,
-                        std::uint32_t height, std::span<const float> values) {
-  write_file(path, encode_heat_map_png(width, height, values));
+                        std::uint32_t height, const RowSource<float>& rows) {
+  check_size(width, height);
+  std::vector<float> row(width);
+  float largest = 0.0F;
+  for (std::uint32_t y = 0; y < height; ++y) {
+    rows(y, row);
+    for (const float value : row) largest = std::max(largest, counted(value));
+  }
+  PngOutput png(path, width, height);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    rows(y, row);
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto color = heat_color(largest > 0.0F ? counted(row[x]) / largest : 0.0F);
+      std::copy(color.begin(), color.end(), png.pixel(x));
+    }
+    png.write_row();
+  }
+  png.close();
 }
 
 }  // namespace sheaf

@@ -22,7 +22,8 @@ MemoryMap::MemoryMap(const MemoryCounts& counts) : bytes_per_pixel_(counts.bytes
                                                counts.triangles * kTriangleSize,
                                                vertex_bytes + counts.materials * kMaterialSize,
                                                lay_textures(counts),
-                                               counts.pixels * counts.bytes_per_pixel};
+                                               counts.pixels * counts.bytes_per_pixel,
+                                               0};
   Address next = kBase;
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
     regions_[kind] = {next, sizes[kind]};

@@ -29,7 +29,7 @@ struct MemoryCounts {
 
 /// Where everything stands in the simulated machine's memory: one region per kind of data, in the
 /// order of DataKind, the first at kBase, each on the first page that the regions before it leave
-/// free.
+/// free. Spilled rays come last and have no size: they may take all that lies behind.
 class MemoryMap {
  public:
   static constexpr Address kBase = 0x1000'0000;
@@ -57,7 +57,7 @@ class MemoryMap {
   [[nodiscard]] const Region& region(DataKind kind) const {
     return regions_[static_cast<std::size_t>(kind)];
   }
-  /// From kBase to behind the last region.
+  /// From kBase to behind the frame buffer.
   [[nodiscard]] Bytes total_size() const;
 
   // Indices must be below the counts that the map was made of.

@@ -71,7 +71,7 @@ void BankedDram::answer(const DramSystem::Done& done) {
 }
 
 Cycles BankedDram::memory_end(Cycles end) const {
-  return std::max(to_memory_.up(end), advanced_to_);
+  return std::max(to_memory_.up(end), memory_.now() + 1);
 }
 
 DramStats BankedDram::stats(Cycles end) const {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "channels/clock_domain.h"
 #include "config/dram/device.h"
@@ -30,6 +32,14 @@ class BankedDram final : public MainMemory, public Agent {
   [[nodiscard]] std::size_t agent() const { return inbox_.agent(); }
   Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
+
+  [[nodiscard]] const DramDevice& device() const { return memory_.device(); }
+  /// Every command that a channel issues, in order; seen later than it happens.
+  void watch(std::size_t channel, std::function<void(const IssuedCommand&)> watcher) {
+    memory_.channel(channel).watch(std::move(watcher));
+  }
+  /// The core cycle of a cycle of the memory.
+  [[nodiscard]] Cycles to_core(Cycles memory_cycle) const { return to_core_.up(memory_cycle); }
 
   [[nodiscard]] DramStats stats(Cycles end) const override;
   void report_details(const std::string& path, Cycles end, StatsTree& stats) const override;

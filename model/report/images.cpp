@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/images.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "config/config_text.h"
 #include "image/exr.h"
 #include "image/png.h"
@@ -9,39 +13,29 @@
 namespace sheaf {
 namespace {
 
-/// EXR channels with the planes that they point to.
-class Layers {
- public:
-  explicit Layers(std::size_t num_pixels) : num_pixels_(num_pixels) {}
-
-  void add(const std::string& name, std::vector<float> plane) {
-    planes_.push_back({name, std::move(plane)});
-  }
-  void add_vectors(const std::string& prefix, const std::string& components,
-                   const std::vector<Vec3>& values) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<float> plane(num_pixels_);
-      for (std::size_t i = 0; i < num_pixels_; ++i) plane[i] = values[i][axis];
-      add(prefix + components[static_cast<std::size_t>(axis)], std::move(plane));
-    }
-  }
-  [[nodiscard]] std::vector<ExrChannel> channels() const {
-    std::vector<ExrChannel> channels;
-    for (const auto& [name, plane] : planes_) channels.push_back({name, plane});
-    return channels;
-  }
-
- private:
-  struct Plane {
-    std::string name;
-    std::vector<float> values;
+/// The rows of one component of an image of vectors.
+RowSource<float> component(const RowSource<Vec3>& vectors, int axis, std::uint32_t width) {
+  return [vectors, axis, pixels = std::vector<Vec3>(width)](std::uint32_t y,
+                                                            std::span<float> row) mutable {
+    vectors(y, pixels);
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = pixels[x][axis];
   };
-  std::size_t num_pixels_;
-  std::vector<Plane> planes_;
-};
+}
 
-std::vector<float> to_float(const std::vector<std::uint32_t>& counts) {
-  return {counts.begin(), counts.end()};
+/// The rows of something that holds a value a pixel.
+template <typename T, typename Pixels>
+RowSource<T> rows_in(const Pixels& pixels) {
+  return [&pixels](std::uint32_t y, std::span<T> row) {
+    const std::size_t first = std::size_t{y} * row.size();
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<T>(pixels[first + x]);
+  };
+}
+
+RowSource<Vec3> rows_in_film(const Film& film) {
+  return [&film](std::uint32_t y, std::span<Vec3> row) {
+    const auto first = static_cast<std::uint32_t>(y * row.size());
+    for (std::uint32_t x = 0; x < row.size(); ++x) row[x] = film.value(first + x);
+  };
 }
 
 }  // namespace
@@ -49,29 +43,36 @@ std::vector<float> to_float(const std::vector<std::uint32_t>& counts) {
 void write_images(const Config& config, const Frame& frame, ResultFolder& folder) {
   const std::uint32_t width = config.image.width;
   const std::uint32_t height = config.image.height;
-  const std::size_t num_pixels = std::size_t{width} * height;
-  std::vector<Vec3> beauty(num_pixels);
-  for (std::uint32_t i = 0; i < num_pixels; ++i) beauty[i] = frame.film->value(i);
+  const RowSource<Vec3> beauty = rows_in_film(*frame.film);
   write_png(folder.stage("image.png"), width, height, beauty);
 
-  Layers layers(num_pixels);
-  layers.add_vectors("", "RGB", beauty);
-  layers.add("A", std::vector<float>(num_pixels, 1.0F));
-  layers.add_vectors("albedo.", "RGB", frame.layers.albedo);
-  layers.add_vectors("normal.", "XYZ", frame.layers.normal);
-  layers.add("depth.Z", frame.layers.depth);
+  std::vector<ExrChannel> channels;
+  const auto add_vectors = [&](const std::string& prefix, const std::string& components,
+                               const RowSource<Vec3>& vectors) {
+    for (int axis = 0; axis < 3; ++axis) {
+      channels.push_back(
+          {prefix + components[static_cast<std::size_t>(axis)], component(vectors, axis, width)});
+    }
+  };
+  add_vectors("", "RGB", beauty);
+  channels.push_back({"A", [](std::uint32_t /*y*/, std::span<float> row) {
+                        std::fill(row.begin(), row.end(), 1.0F);
+                      }});
+  add_vectors("albedo.", "RGB", rows_in<Vec3>(frame.layers.albedo));
+  add_vectors("normal.", "XYZ", rows_in<Vec3>(frame.layers.normal));
+  channels.push_back({"depth.Z", rows_in<float>(frame.layers.depth)});
   const auto heat = [&](const std::string& name, const std::vector<std::uint32_t>& counts) {
     if (counts.empty()) return;
-    const std::vector<float> values = to_float(counts);
-    write_heat_map_png(folder.stage("heat_" + name + ".png"), width, height, values);
-    layers.add("heat." + name + ".Y", values);
+    const RowSource<float> rows = rows_in<float>(counts);
+    write_heat_map_png(folder.stage("heat_" + name + ".png"), width, height, rows);
+    channels.push_back({"heat." + name + ".Y", rows});
   };
   heat("rays", frame.heat.rays);
   heat("node_visits", frame.heat.node_visits);
   heat("triangle_tests", frame.heat.triangle_tests);
   const std::vector<ExrAttribute> attributes{{"sheaf.version", SHEAF_VERSION},
                                              {"sheaf.config_hash", config_hash(config)}};
-  write_exr(folder.stage("image.exr"), width, height, layers.channels(), attributes);
+  write_exr(folder.stage("image.exr"), width, height, channels, attributes);
 }
 
 }  // namespace sheaf

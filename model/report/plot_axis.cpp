@@ -81,8 +81,9 @@ double AxisRange::position(double value) const {
 std::vector<double> AxisRange::ticks() const {
   std::vector<double> ticks;
   const double step = this->step();
-  const auto first = static_cast<long long>(std::llround(low_ / step));
-  const auto last = static_cast<long long>(std::llround(high_ / step));
+  // The step of a range that round() has widened may be a longer one.
+  const auto first = static_cast<long long>(std::ceil(low_ / step - 1e-9));
+  const auto last = static_cast<long long>(std::floor(high_ / step + 1e-9));
   for (long long i = first; i <= last; ++i)
     ticks.push_back(from_line(static_cast<double>(i) * step));
   return ticks;

@@ -18,14 +18,22 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStagingName = ".sheaf-partial";
 constexpr const char* kCompleteMark = "stats.json";
-constexpr std::array<const char*, 7> kResultNames{"config.toml", "stats.json",  "image.exr",
-                                                  "image.png",   "summary.txt", "rays.trace",
-                                                  "memory.trace"};
+constexpr std::array kResultNames{"config.toml",     "stats.json",
+                                  "image.exr",       "image.png",
+                                  "summary.txt",     "rays.trace",
+                                  "memory.trace",    "stability.md",
+                                  "stability.csv",   "timeline.perfetto-trace",
+                                  "signals.vcd",     "accuracy.txt",
+                                  "accuracy.csv",    "accuracy.svg",
+                                  "accuracy.png",    "image_error.csv",
+                                  "image_error.svg", "image_error.png"};
 
 /// A finished result, or one whose run was killed. A lone config.toml may be a user's own.
 bool is_result(const fs::path& folder) {
   std::error_code ignored;
   return fs::exists(folder / kStagingName, ignored) ||
+         fs::exists(folder / "stability.csv", ignored) ||
+         fs::exists(folder / "accuracy.csv", ignored) ||
          (fs::exists(folder / "config.toml", ignored) &&
           fs::exists(folder / kCompleteMark, ignored));
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "report/energy_summary.h"
 #include "report/table.h"
 #include "stats/stall_account.h"
 
@@ -19,11 +20,12 @@ class Summary {
     rays();
     if (has("system.cycles")) {
       time();
-      stalls();
+      if (has("system.film.stall_cycles_busy")) stalls();
     }
     if (has("system.ray_cache.num_insertions")) ray_cache();
     coherence();
     if (has("system.dram.num_reads")) memory();
+    text_ += summarize_energy(in_.stats);
     left_out();
     wall_time();
     return text_;
@@ -50,6 +52,9 @@ class Summary {
                          value("run.scene"), value("scene.triangles"), in_.config.image.width,
                          in_.config.image.height, in_.config.render.recursion_level,
                          value("run.heuristic"), in_.config.packet.size);
+    if (has("estimate.cycles.value")) {
+      text_ += "ESTIMATE: not the whole frame was simulated in time\n";
+    }
     if (!in_.complete) text_ += "PARTIAL: stopped before the frame was complete\n";
   }
 
@@ -75,6 +80,10 @@ class Summary {
     section("Time");
     TextTable table({Align::kLeft, Align::kRight, Align::kLeft});
     table.add_row({"length of the frame", value("system.cycles"), "cycles"});
+    if (has("system.cycles_ci95_low")) {
+      table.add_row({"95 % confidence", value("system.cycles_ci95_low"),
+                     "to " + value("system.cycles_ci95_high") + " cycles"});
+    }
     table.add_row({"frames per second", value("system.frames_per_second"),
                    fmt::format("at {:.4g} GHz", in_.config.clock.frequency * 1e-9)});
     table.add_row({"rays per cycle", value("system.rays_per_cycle"), ""});

@@ -6,20 +6,25 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace sheaf {
 
 /// The order in which primary packets are made: square tiles row by row, and within a tile runs of
 /// `run` pixels along the Z-order curve of the smallest power-of-two square around it. Runs whose
 /// length is a power of four are square blocks (4 × 4 for 16). Pixels outside the tile or the
-/// picture leave their lane empty; runs without any pixel are skipped.
+/// picture leave their lane empty; runs without any pixel are skipped. All tiles are visited, or a
+/// choice of them.
 class TileOrder {
  public:
   static constexpr int kMaxRun = 64;
   static constexpr std::uint32_t kNoPixel = ~std::uint32_t{0};
 
-  TileOrder(std::uint32_t width, std::uint32_t height, std::uint32_t tile, int run)
-      : width_(width), height_(height), tile_(tile), run_(run) {}
+  /// `choice`: numbers of the tiles to be visited, in order; empty: all.
+  TileOrder(std::uint32_t width, std::uint32_t height, std::uint32_t tile, int run,
+            std::vector<std::uint32_t> choice = {})
+      : width_(width), height_(height), tile_(tile), run_(run), choice_(std::move(choice)) {}
 
   struct Run {
     std::array<std::uint32_t, kMaxRun> pixels;  ///< row × width + column, or kNoPixel
@@ -39,7 +44,7 @@ class TileOrder {
         any |= pixel != kNoPixel;
       }
       if (any) {
-        run.tile = tile_index_;
+        run.tile = tile();
         return true;
       }
     }
@@ -48,12 +53,22 @@ class TileOrder {
 
   /// Goes on to the next tile; is_done() if there is none.
   void next_tile() {
-    ++tile_index_;
+    ++num_visited_;
     code_ = 0;
   }
-  [[nodiscard]] bool is_done() const { return tile_index_ >= num_tiles(); }
-  [[nodiscard]] std::uint32_t num_tiles() const { return tiles_across() * tiles_down(); }
-  [[nodiscard]] std::uint32_t tile_index() const { return tile_index_; }
+  [[nodiscard]] bool is_done() const { return num_visited_ >= num_tiles(); }
+  [[nodiscard]] bool is_last() const { return num_visited_ + 1 == num_tiles(); }
+  /// Tiles to be visited.
+  [[nodiscard]] std::uint32_t num_tiles() const {
+    return choice_.empty() ? tiles_across() * tiles_down()
+                           : static_cast<std::uint32_t>(choice_.size());
+  }
+  /// Of these, those before the current one.
+  [[nodiscard]] std::uint32_t num_visited() const { return num_visited_; }
+  /// The current tile's number in the picture, row by row.
+  [[nodiscard]] std::uint32_t tile() const {
+    return choice_.empty() ? num_visited_ : choice_[num_visited_];
+  }
 
  private:
   [[nodiscard]] std::uint32_t tiles_across() const { return (width_ + tile_ - 1) / tile_; }
@@ -69,8 +84,8 @@ class TileOrder {
     const std::uint32_t in_x = even_bits(code);
     const std::uint32_t in_y = even_bits(code >> 1);
     if (in_x >= tile_ || in_y >= tile_) return kNoPixel;
-    const std::uint32_t x = tile_index_ % tiles_across() * tile_ + in_x;
-    const std::uint32_t y = tile_index_ / tiles_across() * tile_ + in_y;
+    const std::uint32_t x = tile() % tiles_across() * tile_ + in_x;
+    const std::uint32_t y = tile() / tiles_across() * tile_ + in_y;
     return x < width_ && y < height_ ? y * width_ + x : kNoPixel;
   }
 
@@ -78,7 +93,8 @@ class TileOrder {
   std::uint32_t height_;
   std::uint32_t tile_;
   int run_;
-  std::uint32_t tile_index_ = 0;
+  std::vector<std::uint32_t> choice_;
+  std::uint32_t num_visited_ = 0;
   std::uint64_t code_ = 0;
 };
 

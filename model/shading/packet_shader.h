@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
+#include "base/paged_array.h"
 #include "shading/shading_source.h"
 
 namespace sheaf {
 
 /// What primary hits leave for the picture's auxiliary layers; all are indexed by pixel.
 struct AuxiliaryLayers {
-  std::vector<Vec3> albedo;
-  std::vector<Vec3> normal;
-  std::vector<float> depth;  ///< distance along the ray; 0 where nothing was hit
+  PagedArray<Vec3> albedo;
+  PagedArray<Vec3> normal;
+  PagedArray<float> depth;  ///< distance along the ray; 0 where nothing was hit
   explicit AuxiliaryLayers(std::size_t num_pixels)
-      : albedo(num_pixels, Vec3(0.0F)), normal(num_pixels, Vec3(0.0F)), depth(num_pixels, 0.0F) {}
+      : albedo(num_pixels), normal(num_pixels), depth(num_pixels) {}
 };
 
 /// Shades traced packets ray by ray: pre-shading where a ray hit something, background where it

@@ -13,17 +13,39 @@
 namespace sheaf {
 namespace {
 
-/// The point p moved along n by as much as Wächter and Binder (Ray Tracing Gems 2019, chapter 6)
-/// would move it if it were a float.
-Vec3d moved_off(const Vec3d& p, const Vec3d& n) {
-  Vec3d moved = p;
+/// The unit and the least step of the offset, by the conventions of OffsetScale (ray_offset.h).
+double unit_of(const Scene& scene) {
+  double largest = 0.0;
+  for (const Vec3& p : {scene.bounds.lo, scene.bounds.hi}) {
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::fabs(double{p[axis]}));
+  }
+  if (largest >= 0.25) return 1.0;
+  return largest > 0.0 ? std::exp2(std::max(std::floor(std::log2(largest)), -100.0))
+                       : std::exp2(-100.0);
+}
+double least_step(const Scene& scene, std::uint32_t triangle) {
+  const auto& corners = scene.triangles[triangle];
+  const Vec3d a(scene.positions[corners[0]]);
+  double reach = 0.0;
+  for (const std::uint32_t corner : {corners[1], corners[2]}) {
+    const Vec3d edge = glm::abs(Vec3d(scene.positions[corner]) - a);
+    reach = std::max({reach, edge.x, edge.y, edge.z});
+  }
+  return reach > 64.0 ? reach * 0x1p-20 : 0.0;
+}
+
+/// The surface's point moved along n by as much as Wächter and Binder (Ray Tracing Gems 2019,
+/// chapter 6) would move it if it were a float, or by the least step.
+Vec3d moved_off(const ReferenceSurface& s, const Vec3d& n) {
+  Vec3d moved = s.position;
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::fabs(p[axis]) < 1.0 / 32.0) {
-      moved[axis] += n[axis] / 65536.0;
-    } else {
-      const double float_ulp = std::ldexp(1.0, std::ilogb(p[axis]) - 23);
-      moved[axis] += std::trunc(256.0 * n[axis]) * float_ulp;
+    const double p = s.position[axis];
+    double step = n[axis] * s.offset_unit / 65536.0;
+    if (std::fabs(p) >= s.offset_unit / 32.0) {
+      step = std::trunc(256.0 * n[axis]) * std::ldexp(1.0, std::ilogb(p) - 23);
     }
+    const double least = s.least_offset * n[axis];
+    moved[axis] += std::fabs(step) < std::fabs(least) ? least : step;
   }
   return moved;
 }
@@ -94,7 +116,7 @@ Illumination illuminate(const Light& light, const Vec3d& point) {
 class Tracer {
  public:
   Tracer(const Scene& scene, const KdTree& tree, const ReferenceTracer::Options& options)
-      : scene_(scene), tree_(tree), options_(options) {}
+      : scene_(scene), tree_(tree), options_(options), offset_unit_(unit_of(scene)) {}
 
   [[nodiscard]] Vec3d trace(const ReferenceRay& ray, const Vec3d& weight,
                             std::uint32_t depth) const {
@@ -102,7 +124,9 @@ class Tracer {
     if (!hit) {
       return weight * Vec3d(scene_.background);
     }
-    const ReferenceSurface s = reference_surface(scene_, ray, *hit);
+    ReferenceSurface s = reference_surface(scene_, ray, *hit);
+    s.offset_unit = offset_unit_;
+    s.least_offset = least_step(scene_, hit->triangle);
     if (s.material->unlit) {
       return weight * s.base_color;
     }
@@ -134,7 +158,7 @@ class Tracer {
     if (!worth_tracing(contribution)) {
       return Vec3d(0.0);
     }
-    ReferenceRay ray{moved_off(s.position, s.geometric_normal), incoming.direction};
+    ReferenceRay ray{moved_off(s, s.geometric_normal), incoming.direction};
     if (light.type != Light::Type::kDirectional) {
       const Vec3d to_light = Vec3d(light.position) - ray.origin;
       ray.t_max = glm::length(to_light);
@@ -161,14 +185,14 @@ class Tracer {
       if (glm::dot(direction, s.geometric_normal) <= 0.0) {
         direction = mirrored(ray.direction, s.geometric_normal);
       }
-      sum += trace({moved_off(s.position, s.geometric_normal), direction}, reflected, depth);
+      sum += trace({moved_off(s, s.geometric_normal), direction}, reflected, depth);
     }
 
     const Vec3d refracted = weight * s.base_color * (transmission * (1.0 - crossing.reflectance));
     if (worth_tracing(refracted)) {
       const bool passes = glm::dot(crossing.refracted, s.geometric_normal) < 0.0;
       const Vec3d direction = passes ? crossing.refracted : ray.direction;
-      sum += trace({moved_off(s.position, -s.geometric_normal), direction}, refracted, depth);
+      sum += trace({moved_off(s, -s.geometric_normal), direction}, refracted, depth);
     }
     return sum;
   }
@@ -176,6 +200,7 @@ class Tracer {
   const Scene& scene_;
   const KdTree& tree_;
   const ReferenceTracer::Options& options_;
+  double offset_unit_;
 };
 
 }  // namespace

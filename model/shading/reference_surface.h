@@ -16,6 +16,8 @@ struct ReferenceSurface {
   const Material* material = nullptr;
   Vec3d base_color{0.0};
   Vec3d emission{0.0};
+  double offset_unit = 1.0;
+  double least_offset = 0.0;
 };
 
 [[nodiscard]] ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/shader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -72,7 +73,8 @@ void check_texture(const Scene& scene, std::int32_t index, const std::string& ma
 
 }  // namespace
 
-Shader::Shader(const Scene& scene, const Options& options) : scene_(scene), options_(options) {
+Shader::Shader(const Scene& scene, const Options& options)
+    : scene_(scene), options_(options), offset_unit_(offset_unit(scene.bounds)) {
   for (const Material& material : scene.materials) {
     check_texture(scene, material.base_color_texture, material.name);
     check_texture(scene, material.emission_texture, material.name);
@@ -92,6 +94,8 @@ Surface Shader::surface(const Ray& ray, const Hit& hit) const {
   // From the vertices: the error is some ulps of the triangle's size, not of the distance
   // travelled.
   s.position = a + (hit.u * e1 + hit.v * e2);
+  const Vec3 reach = glm::max(glm::abs(e1), glm::abs(e2));
+  s.offset = {offset_unit_, least_offset(std::max({reach.x, reach.y, reach.z}))};
   s.geometric_normal = face_normal(e1, e2, -ray.direction);
   s.entering = glm::dot(s.geometric_normal, ray.direction) <= 0.0F;
   s.geometric_normal = s.entering ? s.geometric_normal : -s.geometric_normal;

@@ -7,6 +7,7 @@
 
 #include "geometry/ray.h"
 #include "scene/scene.h"
+#include "shading/ray_offset.h"
 
 namespace sheaf {
 
@@ -31,6 +32,7 @@ struct Surface {
   Vec3 geometric_normal{0.0F};  ///< unit, on the side the ray came from
   Vec3 shading_normal{0.0F};    ///< unit, interpolated, in the hemisphere of geometric_normal
   bool entering = true;         ///< the ray met the front (counter-clockwise) side
+  OffsetScale offset;           ///< of rays that start here
   const Material* material = nullptr;
   Vec3 base_color{0.0F};              ///< textured
   Vec3 emission{0.0F};                ///< textured
@@ -86,6 +88,7 @@ class Shader {
  private:
   const Scene& scene_;
   Options options_;
+  float offset_unit_;
 };
 
 }  // namespace sheaf

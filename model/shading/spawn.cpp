@@ -80,8 +80,8 @@ bool Shader::reflect(const Ray& ray, const Surface& surface, Ray& spawned) const
   if (!(glm::dot(direction, surface.geometric_normal) > 0.0F)) {
     direction = mirrored(ray.direction, surface.geometric_normal);
   }
-  spawned = {offset_origin(surface.position, surface.geometric_normal), kInfinity, direction,
-             weight, child_tag(ray, RayKind::kReflection, kReflectionSlot)};
+  spawned = {offset_origin(surface.position, surface.geometric_normal, surface.offset), kInfinity,
+             direction, weight, child_tag(ray, RayKind::kReflection, kReflectionSlot)};
   return true;
 }
 
@@ -101,8 +101,8 @@ bool Shader::refract(const Ray& ray, const Surface& surface, Ray& spawned) const
   if (!(glm::dot(direction, surface.geometric_normal) < 0.0F)) {
     direction = ray.direction;  // the only way that surely leads through the surface
   }
-  spawned = {offset_origin(surface.position, -surface.geometric_normal), kInfinity, direction,
-             weight, child_tag(ray, RayKind::kRefraction, kRefractionSlot)};
+  spawned = {offset_origin(surface.position, -surface.geometric_normal, surface.offset), kInfinity,
+             direction, weight, child_tag(ray, RayKind::kRefraction, kRefractionSlot)};
   return true;
 }
 
@@ -126,7 +126,7 @@ bool Shader::shadow(const Ray& ray, const Surface& surface, std::uint32_t light,
   if (!(largest(weight) > options_.weight_cutoff)) {
     return false;
   }
-  spawned = {offset_origin(surface.position, surface.geometric_normal), kInfinity,
+  spawned = {offset_origin(surface.position, surface.geometric_normal, surface.offset), kInfinity,
              incident.direction, weight,
              child_tag(ray, RayKind::kShadow, kFirstShadowSlot + light)};
   if (source.type != Light::Type::kDirectional) {

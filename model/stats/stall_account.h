@@ -31,6 +31,22 @@ inline constexpr std::array<CounterInfo, kNumStallCauses> kStallInfos{{
     {"stall_cycles_idle", "cycles", "Cycles in which it held nothing"},
 }};
 
+[[nodiscard]] constexpr std::string_view to_string(StallCause cause) {
+  switch (cause) {
+    case StallCause::kBusy:
+      return "busy";
+    case StallCause::kWaitingInput:
+      return "waits for another unit";
+    case StallCause::kWaitingMemory:
+      return "waits for memory";
+    case StallCause::kBlockedOutput:
+      return "blocked by a full link";
+    case StallCause::kIdle:
+      return "idle";
+  }
+  return "";
+}
+
 /// Attributes every cycle of one unit to one cause, so that the causes sum to the length of the run
 /// exactly. The unit says when it changes what it does; nothing is done per cycle.
 class StallAccount {

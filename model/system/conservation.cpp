@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "system/clocked_machine.h"
 #include "system/machine.h"
-#include "system/machine_links.h"
 
 namespace sheaf {
 void require(bool holds, const std::string& law) {
@@ -22,6 +22,8 @@ void require_equal(std::uint64_t a, std::uint64_t b, const std::string& law) {
 void check_cache(const std::string& name, const CacheStats& stats) {
   require_equal(stats.num_accesses, stats.num_hits + stats.num_misses + stats.num_merges,
                 name + ": accesses = hits + misses + merges");
+  require_equal(stats.mshr_occupancy_cycles, stats.sum_miss_latency,
+                name + ": mean MSHRs in use = misses per cycle x mean latency");
 }
 
 namespace {
@@ -44,6 +46,18 @@ void check_shading_sorter(const ShaderCacheStats& stats) {
                 "shader cache: rays in = rays out");
 }
 
+void check_spill(const SpillUnit& spill) {
+  const SpillStats& stats = spill.stats();
+  require(spill.is_idle(), "no ray in the spill unit or its memory at the end");
+  require_equal(stats.num_rays, stats.num_rays_kept + stats.num_rays_spilled,
+                "spill: rays in = kept + spilled");
+  require_equal(stats.num_rays_spilled, stats.num_rays_returned,
+                "spill: rays spilled = rays returned");
+  require_equal(stats.num_lines_written, stats.num_lines_read, "spill: lines written = lines read");
+  require_equal(stats.queue_occupancy_cycles, stats.sum_queue_residence,
+                "spill: mean occupancy = throughput x mean residence");
+}
+
 template <typename Unit>
 void check_stalls(const std::string& name, const Unit& unit, Cycles end) {
   require_equal(unit.stalls().total(), end, name + ": stall account sums to all cycles");
@@ -51,7 +65,8 @@ void check_stalls(const std::string& name, const Unit& unit, Cycles end) {
 
 }  // namespace
 
-void Machine::check_conservation() const {
+template <typename Kind>
+void MachineParts<Kind>::check_conservation() const {
   const RayCounts::Entry rays = frame_.rays.total();
   require_equal(rays.spawned, rays.retired, "rays spawned = rays retired");
   require_equal(packets_.num_out(), 0, "no packet in flight at the end");
@@ -89,8 +104,28 @@ void Machine::check_conservation() const {
   check_stalls("packet_arbiter", *packet_arbiter_, end_);
   if (ray_cache_) check_stalls("ray_cache", *ray_cache_, end_);
   if (spawn_router_) check_stalls("spawn_router", *spawn_router_, end_);
+  if (spill_) {
+    check_spill(*spill_);
+    check_stalls("spill", *spill_, end_);
+    fetched += spill_->stats().num_lines_read * spill_->line();
+    written += spill_->stats().num_lines_written * spill_->line();
+  }
 
-  memory_.check_conservation(fetched, written, end_);
+  const L2Stats& l2 = l2_->stats();
+  const DramStats dram = dram_->stats(end_);
+  require_equal(l2.num_accesses, l2.num_hits + l2.num_misses + l2.num_merges,
+                "l2: accesses = hits + misses + merges");
+  require_equal(fetched, l2.bytes_requested, "bytes into the private caches = bytes out of the l2");
+  require_equal(written, l2.bytes_received, "bytes out of the private caches = bytes into the l2");
+  require_equal(l2.queue_occupancy_cycles, l2.bank_wait_cycles,
+                "l2: mean occupancy of its queues = throughput x mean wait");
+  require_equal(l2.mshr_occupancy_cycles, l2.sum_miss_latency,
+                "l2: mean MSHRs in use = misses per cycle x mean latency");
+  require_equal(l2.bytes_read, dram.bytes_read, "bytes into the l2 = bytes out of dram");
+  require_equal(l2.bytes_written, dram.bytes_written, "bytes out of the l2 = bytes into dram");
 }
+
+template void MachineParts<TimedKind>::check_conservation() const;
+template void MachineParts<ClockedKind>::check_conservation() const;
 
 }  // namespace sheaf

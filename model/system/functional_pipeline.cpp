@@ -12,7 +12,7 @@ namespace sheaf {
 
 FunctionalPipeline::FunctionalPipeline(const Config& config, const BuildPlan& plan,
                                        const PreparedScene& scene, Frame& frame,
-                                       const RunHooks& hooks)
+                                       const RunHooks& hooks, FunctionalObserver* observer)
     : config_(config),
       plan_(plan),
       scene_(scene),
@@ -20,6 +20,7 @@ FunctionalPipeline::FunctionalPipeline(const Config& config, const BuildPlan& pl
       packets_(static_cast<int>(config.packet.size)),
       shader_(make_shader(config, scene.scene, frame)),
       shading_source_(hooks.shading != nullptr ? *hooks.shading : shader_),
+      observer_(observer),
       flow_(make_flow_control(config, plan, scene.scene)),
       order_(config.image.width, config.image.height, config.flow.tile_size,
              static_cast<int>(config.packet.size)) {
@@ -33,7 +34,6 @@ FunctionalPipeline::FunctionalPipeline(const Config& config, const BuildPlan& pl
 }
 
 bool FunctionalPipeline::run(const Monitor& monitor) {
-  std::uint32_t tile = 0;
   for (;;) {
     const bool secondary_first =
         config_.packet_arbiter.policy == ArbiterPolicy::kSecondaryFirst ||
@@ -55,9 +55,10 @@ bool FunctionalPipeline::run(const Monitor& monitor) {
       fifo_.pop_front();
     }
     if (packet != nullptr) process(packet, secondary ? secondary_counts_ : primary_counts_);
-    if (order_.tile_index() != tile) {
-      tile = order_.tile_index();
-      if (monitor && monitor(static_cast<double>(tile) / order_.num_tiles())) return false;
+    if (order_.num_visited() != num_monitored_) {
+      num_monitored_ = order_.num_visited();
+      if (monitor && monitor(static_cast<double>(num_monitored_) / order_.num_tiles()))
+        return false;
     }
   }
 }
@@ -83,17 +84,21 @@ bool FunctionalPipeline::next_primary(RayPacket*& packet) {
   if (!flow_.admits(reservation)) return false;
   packet = held_primary_;
   held_primary_ = nullptr;
+  if (observer_ != nullptr && order_.tile() != last_tile_) observer_->tile_begins(order_.tile());
+  last_tile_ = order_.tile();
   for (LaneMask left = packet->active; left != 0; left &= left - 1) {
     frame_.rays.spawn(packet->tag[static_cast<std::size_t>(std::countr_zero(left))]);
   }
-  flow_.admit(static_cast<std::uint64_t>(std::popcount(packet->active)), reservation);
+  flow_.admit(static_cast<std::uint64_t>(std::popcount(packet->active)), reservation, 0);
   return true;
 }
 
 void FunctionalPipeline::process(RayPacket* packet, TraceCounts& counts) {
   const bool per_lane = frame_.heat.wanted();
-  trace_packet(scheme_of(config_.traversal_scheme), scene_.tree, scene_.triangles, *packet, nullptr,
+  TraceLog* const log = observer_ != nullptr ? &log_ : nullptr;
+  trace_packet(scheme_of(config_.traversal_scheme), scene_.tree, scene_.triangles, *packet, log,
                per_lane ? &lanes_ : nullptr, counts);
+  if (observer_ != nullptr) observer_->traced(*packet, log_);
   if (per_lane) frame_.heat.add(*packet, lanes_);
   if (!shading_sorter_) {
     shade(packet);
@@ -106,6 +111,7 @@ void FunctionalPipeline::process(RayPacket* packet, TraceCounts& counts) {
 
 void FunctionalPipeline::shade(RayPacket* packet) {
   shading_source_.shade(*packet, shading_);
+  if (observer_ != nullptr) observer_->shaded(*packet, shading_);
   for (const PixelContribution& contribution : shading_.contributions) {
     frame_.film->add(contribution.pixel, contribution.radiance);
   }
@@ -157,6 +163,17 @@ bool FunctionalPipeline::sweep() {
   sorter_->sweep(why, 0, departures_);
   fifo_.insert(fifo_.end(), departures_.begin(), departures_.end());
   return true;
+}
+
+void FunctionalPipeline::observe(Observation& seen) const {
+  using enum Observed;
+  seen[kPrimaryRayVisits] += primary_counts_.lane_inner_visits;
+  seen[kPrimaryPacketVisits] += primary_counts_.packet_inner_visits;
+  seen[kSecondaryRayVisits] += secondary_counts_.lane_inner_visits;
+  seen[kSecondaryPacketVisits] += secondary_counts_.packet_inner_visits;
+  if (!sorter_) return;
+  seen[kRayCacheHits] += sorter_->stats().num_hits;
+  seen[kRayCacheInsertions] += sorter_->stats().num_insertions;
 }
 
 void FunctionalPipeline::report(StatsTree& stats) const {

@@ -11,6 +11,8 @@
 #include "sorting/shading_sorter.h"
 #include "system/build_plan.h"
 #include "system/frame.h"
+#include "system/functional_observer.h"
+#include "system/observation.h"
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
 #include "units/shader_unit.h"
@@ -19,18 +21,21 @@ namespace sheaf {
 
 /// The same pipeline without time: packets are traced and shaded one after the other, in the order
 /// that the arbiter's policy gives, with the same flow control and the same ray cache. Private to
-/// it is only that nothing waits.
+/// it is only that nothing waits. An observer, which may be null, is told of each step.
 class FunctionalPipeline {
  public:
   FunctionalPipeline(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
-                     Frame& frame, const RunHooks& hooks = {});
+                     Frame& frame, const RunHooks& hooks = {},
+                     FunctionalObserver* observer = nullptr);
 
   /// Called once a tile with the share of the tiles that have been begun; returns true to stop.
   using Monitor = std::function<bool(double progress)>;
-  /// Returns true if the frame is complete.
+  /// Returns true if the frame is complete; after a stop it goes on from there.
   bool run(const Monitor& monitor);
 
   void report(StatsTree& stats) const;
+  /// Adds p_t's counts and the ray cache's hits so far.
+  void observe(Observation& seen) const;
   [[nodiscard]] const TraceCounts& primary_counts() const { return primary_counts_; }
   [[nodiscard]] const TraceCounts& secondary_counts() const { return secondary_counts_; }
   [[nodiscard]] std::size_t packets_made() const { return packets_.num_made(); }
@@ -51,6 +56,7 @@ class FunctionalPipeline {
   PacketPool packets_;
   PacketShader shader_;
   ShadingSource& shading_source_;
+  FunctionalObserver* const observer_;
   FlowControl flow_;
   TileOrder order_;
   std::unique_ptr<RaySorter> sorter_;
@@ -61,6 +67,9 @@ class FunctionalPipeline {
   RayPacket* held_primary_ = nullptr;  ///< made, but not admitted yet
   PacketShading shading_;
   LaneCounts lanes_;
+  TraceLog log_;
+  std::uint32_t last_tile_ = ~0U;    ///< of the packet admitted last
+  std::uint32_t num_monitored_ = 0;  ///< tiles begun, as the monitor knows
   TraceCounts primary_counts_;
   TraceCounts secondary_counts_;
   bool last_was_secondary_ = true;

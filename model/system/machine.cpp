@@ -7,7 +7,9 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "system/machine_links.h"
+#include "memory/banked_dram.h"
+#include "memory/fixed_dram.h"
+#include "system/memory_system.h"
 #include "system/pipeline_parts.h"
 
 namespace sheaf {
@@ -31,17 +33,10 @@ AnswerTimes answer_times(const Config& config) {
 
 Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
                  Frame& frame, const RunHooks& hooks)
-    : config_(config),
-      plan_(plan),
-      scene_(scene),
-      frame_(frame),
-      packets_(static_cast<int>(config.packet.size)),
-      shader_(make_shader(config, scene.scene, frame)),
-      hooks_(hooks),
-      flow_(make_flow_control(config, plan, scene.scene)),
-      domain_("clock_domain", clock_period(config)),
-      memory_(config, domain_),
-      links_(std::make_unique<Links>()) {
+    : MachineParts(config, plan, scene, frame, hooks),
+      domain_("clock_domain", clock_period(config)) {
+  if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
+  build_memory();
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
@@ -50,6 +45,38 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
 }
 
 Machine::~Machine() = default;
+
+void Machine::build_memory() {
+  links_.caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
+      "caches_to_l2",
+      TimedChannel<LineRequest>::Spec{
+          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
+  l2_ = std::make_unique<L2Cache>("l2", config_.l2, config_.crossbar, domain_);
+  if (config_.dram.model == DramModel::kFixed) {
+    dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
+  } else {
+    auto banked = std::make_unique<BankedDram>("dram", resolve_dram(config_.dram),
+                                               config_.clock.frequency, domain_);
+    l2_->expect_answers_from(banked->agent());
+    dram_ = std::move(banked);
+  }
+  l2_->in_requests(*links_.caches_to_l2);
+  l2_->to_dram.bind(dram_->from_cache);
+}
+
+// A private cache's number at the L2, with the link that brings its lines.
+std::uint16_t Machine::add_requester(const CacheSpec& cache) {
+  auto& links = links_.l2_to_caches;
+  const auto number = static_cast<std::uint16_t>(links.size());
+  const Cycles transfer =
+      (cache.line / cache.sectors + config_.link.memory_width - 1) / config_.link.memory_width;
+  links.push_back(std::make_unique<TimedChannel<LineResponse>>(
+      fmt::format("l2_to_cache_{}", number).c_str(),
+      TimedChannel<LineResponse>::Spec{
+          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = transfer}));
+  l2_->out_responses(*links.back());
+  return number;
+}
 
 void Machine::build_units() {
   const int packet_size = static_cast<int>(config_.packet.size);
@@ -60,80 +87,104 @@ void Machine::build_units() {
                            bundles_,     batches_, frame_.rays,   flow_};
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
-                        packet_size);
-  TimedOut<LineRequest>& memory = memory_.requests();
+                        packet_size, hooks_.tile_choice);
+  TimedOut<LineRequest>& memory = *links_.caches_to_l2;
 
-  primary_source_ = std::make_unique<PrimarySource>("primary_source", config_.primary_source,
-                                                    config_.image, order, scene_.scene.camera,
-                                                    packets_, frame_.rays, flow_, domain_);
+  primary_source_ = std::make_unique<PrimarySource>(
+      "primary_source", config_.primary_source, config_.image, order, scene_.scene.camera, packets_,
+      frame_.rays, flow_, domain_, hooks_.tiles);
   packet_arbiter_ = std::make_unique<PacketArbiter>("packet_arbiter", config_.packet_arbiter,
                                                     config_.traversal_unit.count,
                                                     config_.traversal_unit.contexts, domain_);
   for (std::uint32_t i = 0; i < config_.traversal_unit.count; ++i) {
-    const std::uint16_t requester = memory_.add_requester(config_.node_cache);
+    const std::uint16_t requester = add_requester(config_.node_cache);
     traversal_units_.push_back(std::make_unique<TraversalUnit>(
         fmt::format("traversal_unit{}", i).c_str(), config_.traversal_unit, packet_size,
         config_.node_cache, traced, times, &frame_.heat, domain_, static_cast<std::uint16_t>(i),
         memory, requester));
-    traversal_units_.back()->in_lines(memory_.lines(requester));
+    traversal_units_.back()->in_lines(*links_.l2_to_caches.back());
   }
   for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
-    const std::uint16_t requester = memory_.add_requester(config_.triangle_cache);
+    const std::uint16_t requester = add_requester(config_.triangle_cache);
     intersection_units_.push_back(std::make_unique<IntersectionUnit>(
         fmt::format("intersection_unit{}", i).c_str(), config_.intersection_unit, packet_size,
         config_.triangle_cache, traced, times, domain_, memory, requester));
-    intersection_units_.back()->in_lines(memory_.lines(requester));
+    intersection_units_.back()->in_lines(*links_.l2_to_caches.back());
   }
   for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
-    const std::uint16_t attributes = memory_.add_requester(config_.attribute_cache);
+    const std::uint16_t attributes = add_requester(config_.attribute_cache);
+    auto& attribute_lines = *links_.l2_to_caches.back();
     const std::uint16_t textures =
-        plan_.texture_cache ? memory_.add_requester(config_.texture_cache) : attributes;
+        plan_.texture_cache ? add_requester(config_.texture_cache) : attributes;
     shader_units_.push_back(std::make_unique<ShaderUnit>(
         fmt::format("shader_unit{}", i).c_str(), config_.shader_unit, packet_size,
         config_.attribute_cache, plan_.texture_cache ? &config_.texture_cache : nullptr, shaded,
         domain_, memory, attributes, textures));
-    shader_units_.back()->in_attribute_lines(memory_.lines(attributes));
+    shader_units_.back()->in_attribute_lines(attribute_lines);
     if (plan_.texture_cache) {
-      shader_units_.back()->in_texture_lines(memory_.lines(textures));
+      shader_units_.back()->in_texture_lines(*links_.l2_to_caches.back());
     }
   }
   if (plan_.shader_cache) {
     shader_cache_ = std::make_unique<ShaderCacheUnit>("shader_cache", config_.shader_cache,
                                                       scene_.scene, packets_, flow_, domain_);
   }
-  const std::uint16_t film = memory_.add_requester(config_.film_cache);
-  film_ = std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory,
-                                     batches_, flow_, domain_, memory, film);
-  film_->in_lines(memory_.lines(film));
+  film_ =
+      std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
+                                 flow_, domain_, memory, add_requester(config_.film_cache));
+  film_->in_lines(*links_.l2_to_caches.back());
 }
 
 void Machine::build_regrouper() {
-  links_->packet_fifo = std::make_unique<PacketChannel>(
+  links_.packet_fifo = std::make_unique<PacketChannel>(
       "packet_fifo",
       PacketChannel::Spec{.capacity = config_.packet_fifo.depth,
                           .latency = config_.packet_fifo.latency +
                                      (plan_.ray_cache ? config_.ray_cache.latency : 0)});
-  links_->spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
+  links_.spawned_rays = std::make_unique<TimedChannel<SpawnBundle*>>(
       "spawned_rays",
-      TimedChannel<SpawnBundle*>::Spec{.capacity = kNeverFull, .latency = config_.link.latency});
+      TimedChannel<SpawnBundle*>::Spec{
+          .capacity = config_.flow.control == FlowPolicy::kSpill ? config_.link.depth : kNeverFull,
+          .latency = config_.link.latency});
+  if (config_.flow.control == FlowPolicy::kSpill) build_spill();
+  auto& bundles = links_.spill_to_regrouper ? *links_.spill_to_regrouper : *links_.spawned_rays;
   if (plan_.ray_cache) {
     const SorterOptions options = sorter_options(config_, plan_, scene_.scene.bounds);
     ray_cache_ = std::make_unique<RayCacheUnit>("ray_cache", config_.ray_cache,
                                                 make_sorter(options, scene_.scene.bounds, packets_),
                                                 bundles_, flow_, domain_);
-    ray_cache_->in_bundles(*links_->spawned_rays);
-    ray_cache_->out_packets(*links_->packet_fifo);
+    ray_cache_->in_bundles(bundles);
+    ray_cache_->out_packets(*links_.packet_fifo);
   } else {
     spawn_router_ = std::make_unique<SpawnRouter>("spawn_router", packets_, bundles_, domain_);
-    spawn_router_->in_bundles(*links_->spawned_rays);
-    spawn_router_->out_packets(*links_->packet_fifo);
+    spawn_router_->in_bundles(bundles);
+    spawn_router_->out_packets(*links_.packet_fifo);
   }
+}
+
+// The queue that spills stands right before whoever takes the rays in.
+void Machine::build_spill() {
+  links_.spill_to_regrouper = std::make_unique<TimedChannel<SpawnBundle*>>(
+      "spill_to_regrouper", TimedChannel<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
+  CacheSpec line;
+  line.line = config_.l2.line / config_.l2.sectors;
+  const std::uint16_t requester = add_requester(line);
+  spill_ = std::make_unique<SpillUnit>(
+      "spill",
+      SpillUnit::Spec{.queue = config_.flow.spill_queue,
+                      .line = line.line,
+                      .base = scene_.memory.region(DataKind::kSpilledRay).base,
+                      .requester = requester},
+      *links_.caches_to_l2, domain_);
+  spill_->in_bundles(*links_.spawned_rays);
+  spill_->out_bundles(*links_.spill_to_regrouper);
+  spill_->in_lines(*links_.l2_to_caches.back());
 }
 
 void Machine::connect() {
   const Cycles latency = config_.link.latency;
   const std::size_t depth = config_.link.depth;
-  Links& links = *links_;
+  auto& links = links_;
   const auto number = [](const char* name, std::size_t i) { return fmt::format("{}{}", name, i); };
 
   links.source_to_arbiter = std::make_unique<PacketChannel>(
@@ -188,11 +239,11 @@ void Machine::connect() {
 void Machine::connect_shaders() {
   for (auto& shader : shader_units_) {
     for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-      links_->traversal_to_shader.push_back(std::make_unique<PacketChannel>(
+      links_.traversal_to_shader.push_back(std::make_unique<PacketChannel>(
           fmt::format("traversal{}_to_{}", i, shader->name()).c_str(),
           PacketChannel::Spec{.capacity = config_.link.depth, .latency = config_.link.latency}));
-      shader->in_packets(*links_->traversal_to_shader.back());
-      traversal_units_[i]->out_packets(*links_->traversal_to_shader.back());
+      shader->in_packets(*links_.traversal_to_shader.back());
+      traversal_units_[i]->out_packets(*links_.traversal_to_shader.back());
     }
   }
 }
@@ -200,16 +251,16 @@ void Machine::connect_shaders() {
 void Machine::connect_shader_cache() {
   const PacketChannel::Spec spec{.capacity = config_.link.depth, .latency = config_.link.latency};
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-    links_->traversal_to_shader_cache.push_back(std::make_unique<PacketChannel>(
+    links_.traversal_to_shader_cache.push_back(std::make_unique<PacketChannel>(
         fmt::format("traversal{}_to_shader_cache", i).c_str(), spec));
-    traversal_units_[i]->out_packets(*links_->traversal_to_shader_cache.back());
-    shader_cache_->in_packets(*links_->traversal_to_shader_cache.back());
+    traversal_units_[i]->out_packets(*links_.traversal_to_shader_cache.back());
+    shader_cache_->in_packets(*links_.traversal_to_shader_cache.back());
   }
   for (auto& shader : shader_units_) {
-    links_->shader_cache_to_shader.push_back(std::make_unique<PacketChannel>(
+    links_.shader_cache_to_shader.push_back(std::make_unique<PacketChannel>(
         fmt::format("shader_cache_to_{}", shader->name()).c_str(), spec));
-    shader_cache_->out_packets(*links_->shader_cache_to_shader.back());
-    shader->in_packets(*links_->shader_cache_to_shader.back());
+    shader_cache_->out_packets(*links_.shader_cache_to_shader.back());
+    shader->in_packets(*links_.shader_cache_to_shader.back());
   }
 }
 
@@ -219,26 +270,17 @@ bool Machine::run(const Monitor& monitor) {
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   sc_core::sc_start();
-  end_ = domain_.latest() + 1;
+  const bool cut = !domain_.ran_dry() && !domain_.stopped();
+  end_ = cut ? config_.run.max_cycles : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();
+  num_wakes_ = domain_.num_wakes();
+  for (MachineObserver* observer : observers_) observer->finish(end_);
   finish_accounts(end_);
   if (domain_.ran_dry()) {
     if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());
     check_conservation();
   }
   return complete_;
-}
-
-void Machine::finish_accounts(Cycles end) {
-  for (auto& unit : traversal_units_) unit->finish(end);
-  for (auto& unit : intersection_units_) unit->finish(end);
-  for (auto& unit : shader_units_) unit->finish(end);
-  primary_source_->finish(end);
-  packet_arbiter_->finish(end);
-  film_->finish(end);
-  if (shader_cache_) shader_cache_->finish(end);
-  if (ray_cache_) ray_cache_->finish(end);
-  if (spawn_router_) spawn_router_->finish(end);
 }
 
 std::string Machine::describe_stuck() const {
@@ -258,10 +300,11 @@ std::string Machine::describe_stuck() const {
   add(packet_arbiter_.get());
   add(ray_cache_.get());
   add(spawn_router_.get());
+  add(spill_.get());
   add(film_.get());
-  add(&memory_.l2());
-  if (links_->packet_fifo && links_->packet_fifo->size() != 0) {
-    text += fmt::format("; packet_fifo: {} packets", links_->packet_fifo->size());
+  add(l2_.get());
+  if (links_.packet_fifo && links_.packet_fifo->size() != 0) {
+    text += fmt::format("; packet_fifo: {} packets", links_.packet_fifo->size());
   }
   return text;
 }

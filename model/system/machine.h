@@ -2,20 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <functional>
-#include <memory>
 #include <string>
 #include <systemc>
-#include <vector>
 
 #include "channels/clock_domain.h"
-#include "stats/report_tree.h"
-#include "system/build_plan.h"
-#include "system/frame.h"
-#include "system/memory_system.h"
-#include "system/prepared_scene.h"
-#include "system/run_hooks.h"
+#include "memory/l2_cache.h"
+#include "memory/main_memory.h"
+#include "system/machine_observer.h"
+#include "system/machine_parts.h"
+#include "system/tag_hierarchy.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
 #include "units/packet_arbiter.h"
@@ -24,15 +20,33 @@
 #include "units/shader_cache_unit.h"
 #include "units/shader_unit.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
 
 using PacketChannel = TimedChannel<RayPacket*>;
 
+/// Event-driven units that meet in one clock domain.
+struct TimedKind {
+  template <typename T>
+  using Link = TimedChannel<T>;
+  using TraversalUnit = sheaf::TraversalUnit;
+  using IntersectionUnit = sheaf::IntersectionUnit;
+  using ShaderUnit = sheaf::ShaderUnit;
+  using PrimarySource = sheaf::PrimarySource;
+  using PacketArbiter = sheaf::PacketArbiter;
+  using RayCache = RayCacheUnit;
+  using SpawnRouter = sheaf::SpawnRouter;
+  using ShaderCache = ShaderCacheUnit;
+  using Film = FilmUnit;
+  using L2 = L2Cache;
+  using Memory = MainMemory;
+};
+
 /// The machine that a configuration describes, built for one scene: units, channels and memory,
 /// bound and ready to run once. One machine a process (SystemC).
-class Machine {
+class Machine : public MachineParts<TimedKind> {
  public:
   Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
           const RunHooks& hooks = {});
@@ -46,49 +60,36 @@ class Machine {
   /// progress, Error(kBug) if a conservation check fails.
   bool run(const Monitor& monitor);
 
-  void report(StatsTree& stats) const;
+  /// Adds an observer; to be called before run().
+  void observe(MachineObserver& observer);
+
+  /// What has been counted up to now, or, after the run, in all.
+  [[nodiscard]] Observation observation(Cycles now) const;
+  /// Makes the caches hold what `tags` says, but for what is on its way; nothing is counted. For a
+  /// run that leaves something out.
+  void load_caches(const TagHierarchy& tags);
+  /// Length of the run, once it has ended.
+  [[nodiscard]] Cycles end() const { return end_; }
 
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 
  private:
-  struct Links;
+  void build_memory();
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void record_memory(MemoryRecorder& recorder);
   void connect_shader_cache();
-  void check_conservation() const;
   [[nodiscard]] std::string describe_stuck() const;
-  void finish_accounts(Cycles end);
-  void report_units(StatsTree& stats) const;
-  void report_memory(StatsTree& stats) const;
-  void report_links(StatsTree& stats) const;
+  [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
+  [[nodiscard]] MachineProbes probes();
+  void probe_units(MachineProbes& probes) const;
+  void probe_links(MachineProbes& probes) const;
 
-  const Config config_;
-  const BuildPlan plan_;
-  const PreparedScene& scene_;
-  Frame& frame_;
-  PacketPool packets_;
-  ObjectPool<SpawnBundle> bundles_;
-  ObjectPool<FilmBatch> batches_;
-  PacketShader shader_;
-  const RunHooks hooks_;
-  FlowControl flow_;
   ClockDomain domain_;
-  MemorySystem memory_;
-  std::unique_ptr<Links> links_;
-  std::vector<std::unique_ptr<TraversalUnit>> traversal_units_;
-  std::vector<std::unique_ptr<IntersectionUnit>> intersection_units_;
-  std::vector<std::unique_ptr<ShaderUnit>> shader_units_;
-  std::unique_ptr<PrimarySource> primary_source_;
-  std::unique_ptr<PacketArbiter> packet_arbiter_;
-  std::unique_ptr<RayCacheUnit> ray_cache_;
-  std::unique_ptr<SpawnRouter> spawn_router_;
-  std::unique_ptr<ShaderCacheUnit> shader_cache_;
-  std::unique_ptr<FilmUnit> film_;
-  Cycles end_ = 0;
-  bool complete_ = false;
+  std::vector<MachineObserver*> observers_;
 };
 
 }  // namespace sheaf

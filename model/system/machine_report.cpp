@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "system/clocked_machine.h"
 #include "system/machine.h"
-#include "system/machine_links.h"
 #include "system/report_parts.h"
 #include "system/reported_values.h"
 
 namespace sheaf {
 
-void Machine::report(StatsTree& stats) const {
+template <typename Kind>
+void MachineParts<Kind>::report(StatsTree& stats) const {
   const double seconds = static_cast<double>(end_) / config_.clock.frequency;
   stats.add("system", SystemValues::cycles, end_);
   stats.add_real("system", SystemValues::seconds, seconds);
@@ -18,13 +19,14 @@ void Machine::report(StatsTree& stats) const {
   stats.add_ratio("system", SystemValues::rays_per_cycle, rays, static_cast<double>(end_));
   stats.add("system", SystemValues::max_rays_in_flight, flow_.max_live());
   stats.add("system", SystemValues::packets_made, packets_.num_made());
-  stats.add("system", SystemValues::num_wakes, domain_.num_wakes());
+  stats.add("system", SystemValues::num_wakes, num_wakes_);
   report_units(stats);
   report_links(stats);
   report_memory(stats);
 }
 
-void Machine::report_units(StatsTree& stats) const {
+template <typename Kind>
+void MachineParts<Kind>::report_units(StatsTree& stats) const {
   const auto unit = [&](const std::string& path, const auto& module) {
     stats.add_counters(path, module.stalls());
   };
@@ -40,10 +42,16 @@ void Machine::report_units(StatsTree& stats) const {
     stats.add_counters("system.spawn_router", spawn_router_->stats());
     unit("system.spawn_router", *spawn_router_);
   }
+  if (spill_) {
+    stats.add_counters("system.spill", spill_->stats());
+    stats.add_ratio("system.spill", SpillValues::mean_spill_latency,
+                    spill_->stats().sum_spill_latency, spill_->stats().num_bundles_spilled);
+    unit("system.spill", *spill_);
+  }
   TraceCounts primary;
   TraceCounts secondary;
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
-    const TraversalUnit& traversal = *traversal_units_[i];
+    const auto& traversal = *traversal_units_[i];
     const std::string path = fmt::format("system.traversal_unit{}", i);
     stats.add_counters(path, traversal.pipeline_stats());
     unit(path, traversal);
@@ -69,32 +77,44 @@ void Machine::report_units(StatsTree& stats) const {
   report_traces(primary, secondary, plan_.secondary_rays, stats);
 }
 
-void Machine::report_links(StatsTree& stats) const {
+template <typename Kind>
+void MachineParts<Kind>::report_links(StatsTree& stats) const {
   const auto link = [&](const std::string& path, const auto& channel) {
     stats.add(path, LinkValues::num_written, channel.num_written());
     stats.add(path, LinkValues::max_occupancy, channel.max_size());
+    stats.add(path, LinkValues::occupancy_cycles, channel.occupancy_cycles());
+    stats.add_ratio(path, LinkValues::mean_residence, channel.occupancy_cycles(),
+                    channel.num_written());
   };
-  link("system.link.source_to_arbiter", *links_->source_to_arbiter);
-  if (links_->packet_fifo) link("system.packet_fifo", *links_->packet_fifo);
-  if (links_->spawned_rays) link("system.link.spawned_rays", *links_->spawned_rays);
-  for (const auto& channel : links_->traversal_to_intersection) {
+  link("system.link.source_to_arbiter", *links_.source_to_arbiter);
+  if (links_.packet_fifo) link("system.packet_fifo", *links_.packet_fifo);
+  if (links_.spawned_rays) link("system.link.spawned_rays", *links_.spawned_rays);
+  for (const auto& channel : links_.traversal_to_intersection) {
     link(fmt::format("system.link.{}", channel->name()), *channel);
   }
-  for (const auto& channel : links_->traversal_to_shader) {
+  for (const auto& channel : links_.traversal_to_shader) {
     link(fmt::format("system.link.{}", channel->name()), *channel);
   }
-  for (const auto& channel : links_->traversal_to_shader_cache) {
+  for (const auto& channel : links_.traversal_to_shader_cache) {
     link(fmt::format("system.link.{}", channel->name()), *channel);
   }
-  for (const auto& channel : links_->shader_cache_to_shader) {
+  for (const auto& channel : links_.shader_cache_to_shader) {
     link(fmt::format("system.link.{}", channel->name()), *channel);
   }
-  link("system.link.shader_to_film", *links_->shader_to_film);
+  link("system.link.shader_to_film", *links_.shader_to_film);
 }
 
-void Machine::report_memory(StatsTree& stats) const {
-  const auto cache = [&](const std::string& path, const PrivateCache& module) {
-    report_cache(path, module, stats);
+template <typename Kind>
+void MachineParts<Kind>::report_memory(StatsTree& stats) const {
+  const auto cache = [&](const std::string& path, const auto& module) {
+    const CacheStats& counters = module.stats();
+    stats.add_counters(path, counters);
+    stats.add_ratio(path, CacheValues::hit_rate, counters.num_hits, counters.num_accesses);
+    for (std::size_t i = 0; i < kNumDataKinds; ++i) {
+      const auto kind = static_cast<DataKind>(i);
+      if (module.kind_stats(kind).num_accesses == 0) continue;
+      stats.add_counters(fmt::format("{}.{}", path, to_string(kind)), module.kind_stats(kind));
+    }
   };
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
     cache(fmt::format("system.traversal_unit{}.node_cache", i), traversal_units_[i]->cache());
@@ -106,11 +126,36 @@ void Machine::report_memory(StatsTree& stats) const {
   for (std::size_t i = 0; i < shader_units_.size(); ++i) {
     cache(fmt::format("system.shader_unit{}.attribute_cache", i),
           shader_units_[i]->attribute_cache());
-    const PrivateCache* texture = shader_units_[i]->texture_cache();
+    const auto* texture = shader_units_[i]->texture_cache();
     if (texture != nullptr) cache(fmt::format("system.shader_unit{}.texture_cache", i), *texture);
   }
   cache("system.film.cache", film_->cache());
-  memory_.report(end_, frame_.rays.total().retired, stats);
+  stats.add_counters("system.l2", l2_->stats());
+  stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
+                  l2_->stats().num_accesses);
+  if constexpr (requires { l2_->request_crossbar(); }) {  // clocked has none
+    if (l2_->request_crossbar()) {
+      stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
+    }
+    if (l2_->response_crossbar()) {
+      stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
+    }
+  }
+  for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
+    if (static_cast<DataKind>(kind) == DataKind::kSpilledRay && !spill_) continue;
+    const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
+    stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
+  }
+  const DramStats dram = dram_->stats(end_);
+  stats.add_counters("system.dram", dram);
+  const auto rays = static_cast<double>(frame_.rays.total().retired);
+  stats.add_ratio("system.dram", MainMemoryValues::bytes_per_ray,
+                  static_cast<double>(dram.bytes_read + dram.bytes_written), rays);
+  stats.add_ratio("system.dram", MainMemoryValues::bus_utilization, dram.bus_busy_cycles, end_);
+  dram_->report_details("system.dram", end_, stats);
 }
+
+template void MachineParts<TimedKind>::report(StatsTree& stats) const;
+template void MachineParts<ClockedKind>::report(StatsTree& stats) const;
 
 }  // namespace sheaf

@@ -27,7 +27,7 @@ MemorySystem::MemorySystem(const Config& config, ClockDomain& domain)
           "caches_to_l2",
           TimedChannel<LineRequest>::Spec{
               .capacity = kNeverFull, .latency = config.link.memory_latency, .interval = 0})),
-      l2_(std::make_unique<L2Cache>("l2", config.l2, domain)) {
+      l2_(std::make_unique<L2Cache>("l2", config.l2, config.crossbar, domain)) {
   if (config.dram.model == DramModel::kFixed) {
     dram_ = std::make_unique<FixedDram>("dram", config.dram, domain.period());
   } else {
@@ -42,7 +42,8 @@ MemorySystem::MemorySystem(const Config& config, ClockDomain& domain)
 
 std::uint16_t MemorySystem::add_requester(const CacheSpec& cache) {
   const auto number = static_cast<std::uint16_t>(l2_to_caches_.size());
-  const Cycles transfer = (cache.line + link_.memory_width - 1) / link_.memory_width;
+  const Cycles transfer =
+      (cache.line / cache.sectors + link_.memory_width - 1) / link_.memory_width;
   l2_to_caches_.push_back(std::make_unique<TimedChannel<LineResponse>>(
       fmt::format("l2_to_cache_{}", number).c_str(),
       TimedChannel<LineResponse>::Spec{
@@ -68,8 +69,15 @@ void MemorySystem::report(Cycles end, std::uint64_t rays, StatsTree& stats) cons
   stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
                   l2_->stats().num_accesses);
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
+    if (static_cast<DataKind>(kind) == DataKind::kSpilledRay) continue;
     const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
     stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
+  }
+  if (l2_->request_crossbar()) {
+    stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
+  }
+  if (l2_->response_crossbar()) {
+    stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
   }
   const DramStats dram = dram_->stats(end);
   stats.add_counters("system.dram", dram);

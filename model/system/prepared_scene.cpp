@@ -30,6 +30,8 @@ std::vector<TriangleRecord> make_records(const Scene& scene) {
   return records;
 }
 
+}  // namespace
+
 MemoryMap map_memory(const Scene& scene, const KdTree& tree, const Config& config) {
   MemoryCounts counts;
   counts.nodes = tree.nodes.size();
@@ -44,8 +46,6 @@ MemoryMap map_memory(const Scene& scene, const KdTree& tree, const Config& confi
   counts.bytes_per_pixel = make_film(config.film.format, 1)->bytes_per_pixel();
   return MemoryMap(counts);
 }
-
-}  // namespace
 
 PreparedScene::PreparedScene(Scene&& loaded, const Config& config, const TreeCache* trees)
     : scene(std::move(loaded)),

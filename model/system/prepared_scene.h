@@ -11,6 +11,9 @@
 
 namespace sheaf {
 
+/// Where everything that a frame touches stands; depends on image size and film format.
+[[nodiscard]] MemoryMap map_memory(const Scene& scene, const KdTree& tree, const Config& config);
+
 /// A scene with everything that is made of it once, before time begins.
 struct PreparedScene {
   /// `trees`: where the kd-tree may stand already; may be null.

@@ -14,11 +14,13 @@
 #include "memory/l2_cache.h"
 #include "memory/main_memory.h"
 #include "system/coherence.h"
+#include "system/estimate_report.h"
 #include "system/reported_values.h"
 #include "units/film_unit.h"
 #include "units/packet_arbiter.h"
 #include "units/primary_source.h"
 #include "units/spawn_router.h"
+#include "units/spill_unit.h"
 #include "units/traversal_unit.h"
 
 namespace sheaf {
@@ -109,6 +111,16 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"rays", "All rays", RayValues::infos()},
       CounterGroup{"rays.<kind>.depth<n>", "Rays of a kind and depth", RayValues::infos()},
       CounterGroup{"system", "The machine as a whole", SystemValues::infos()},
+      CounterGroup{"system", "Only if run.fidelity is sampled", FrameEstimateValues::infos()},
+      CounterGroup{"sample", "The same: the sample", SampleValues::infos()},
+      CounterGroup{"estimate.<quantity>",
+                   "Only if run.fidelity is sampled, or, without an "
+                   "interval, analytic",
+                   EstimateValues::infos()},
+      CounterGroup{"bound",
+                   "Only if run.fidelity is analytic: cycles that the frame would take if "
+                   "this alone counted",
+                   BoundCycles::infos()},
       CounterGroup{"system.link.<link>, system.packet_fifo", "Links between units",
                    LinkValues::infos()},
       CounterGroup{"system.primary_source", "Camera rays", PrimarySourceStats::infos()},
@@ -118,6 +130,8 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"system.ray_cache.fill", "Rays in a packet that left the ray cache",
                    kHistogramInfos},
       CounterGroup{"system.spawn_router", "Only for the heuristic none", SpawnRouterStats::infos()},
+      CounterGroup{"system.spill", "Only with flow.control = spill", SpillStats::infos()},
+      CounterGroup{"system.spill", "Formulas of these", SpillValues::infos()},
       CounterGroup{"system.shader_cache", "Only with shader_cache.cells",
                    ShaderCacheStats::infos()},
       CounterGroup{"system.shader_cache", "Formulas of these", ShadingSorterValues::infos()},
@@ -138,6 +152,10 @@ std::span<const CounterGroup> counter_groups() {
                    CacheValues::infos()},
       CounterGroup{"system.<unit><n>.<cache>.<kind of data>, system.film.cache.<kind of data>",
                    "The same by kind of data", CacheKindStats::infos()},
+      CounterGroup{"system.crossbar.requests", "Only with crossbar.request_width",
+                   RequestCrossbarStats::infos()},
+      CounterGroup{"system.crossbar.responses", "Only with crossbar.response_width",
+                   ResponseCrossbarStats::infos()},
       CounterGroup{"system.l2", "Shared second-level cache", L2Stats::infos()},
       CounterGroup{"system.l2.<kind of data>", "The same by kind of data", L2KindStats::infos()},
       CounterGroup{"system.dram", "Memory behind the TLM socket", DramStats::infos()},

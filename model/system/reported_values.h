@@ -57,15 +57,21 @@ SHEAF_VALUES(RayValues, SHEAF_RAY_VALUES);
   X(num_wakes, "events", "Times a unit was woken: the simulator's own work")
 SHEAF_VALUES(SystemValues, SHEAF_SYSTEM_VALUES);
 
-#define SHEAF_LINK_VALUES(X)                  \
-  X(num_written, "messages", "Messages sent") \
-  X(max_occupancy, "messages", "Most messages on the way or waiting at a time")
+#define SHEAF_LINK_VALUES(X)                                                              \
+  X(num_written, "messages", "Messages sent")                                             \
+  X(max_occupancy, "messages", "Most messages on the way or waiting at a time")           \
+  X(occupancy_cycles, "cycles", "Messages on the way or waiting, summed over all cycles") \
+  X(mean_residence, "cycles", "Mean time from a message's writing to its reading")
 SHEAF_VALUES(LinkValues, SHEAF_LINK_VALUES);
 
 #define SHEAF_SORTER_VALUES(X)                            \
   X(hit_rate, "1", "Rays that met an open cell, per ray") \
   X(mean_cell_residence, "cycles", "Mean time from a cell's opening to its departure")
 SHEAF_VALUES(SorterValues, SHEAF_SORTER_VALUES);
+
+#define SHEAF_SPILL_VALUES(X) \
+  X(mean_spill_latency, "cycles", "Mean time from a spilled bundle's arrival to its return")
+SHEAF_VALUES(SpillValues, SHEAF_SPILL_VALUES);
 
 #define SHEAF_SHADING_SORTER_VALUES(X)                                                          \
   X(hit_rate, "1", "Rays that met an open cell, per ray")                                       \

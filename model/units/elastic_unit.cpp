@@ -92,47 +92,46 @@ Cycles ElasticUnit::accept_inputs(Cycles now) {
     }
     next = std::min(next, own->lines.next_arrival());
   }
-  if (!awaited && schedule_.all_done() && is_quiet()) next = std::min(next, flush_next(now));
+  if (!awaited && schedule_.all_done() && (flushing_ || is_quiet()))
+    next = std::min(next, flush_next(now));
   return next;
 }
 
-void ElasticUnit::ready(int number, Cycles now) {
+// What it does may let other units act earlier than was known.
+bool ElasticUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
+  look_again();
   switch (context.phase) {
     case Phase::kIdle:
     case Phase::kCalled:
-      return;
+      return false;
     case Phase::kBegin:
-      go_on(number, now);
-      return;
+      return begin_step(number, now);
     case Phase::kStep:
-      enqueue(number);
-      return;
+      return true;
     case Phase::kIssued:
-      finish_step(number, now);
-      return;
+      return finish_step(number, now);
     case Phase::kAnswered:
-      leave_step(number, now);
-      return;
+      return leave_step(number, now);
   }
+  return false;
 }
 
-void ElasticUnit::go_on(int number, Cycles now) {
+bool ElasticUnit::begin_step(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   // A chain without end: the replay will not come to its own.
-  context.phase = schedule_.has_step(*context.chain, now) ? Phase::kStep : Phase::kCalled;
-  if (context.phase == Phase::kStep) enqueue(number);
+  const bool has_step = schedule_.has_step(*context.chain, now);
+  context.phase = has_step ? Phase::kStep : Phase::kCalled;
+  return has_step;
 }
 
-void ElasticUnit::leave_step(int number, Cycles now) {
+bool ElasticUnit::leave_step(int number, Cycles now) {
   ReplayChain& chain = *contexts_[static_cast<std::size_t>(number)].chain;
   const ReplayStep step = chain.steps[chain.next];
   schedule_.leave_step(chain, now);
-  if (step.record.ends) {
-    end_chain(number, step.number, now);
-  } else {
-    go_on(number, now);
-  }
+  if (!step.record.ends) return begin_step(number, now);
+  end_chain(number, step.number, now);
+  return false;
 }
 
 void ElasticUnit::issue(int number, Cycles now) {
@@ -145,39 +144,37 @@ void ElasticUnit::issue(int number, Cycles now) {
     return;
   }
   Cache& own = *caches_[operation.cache];
-  if (context.lines.empty()) list_lines(context, own.cache);
   if (operation.write) {
-    issue_writes(number, now);
+    issue_write(number, now);
     return;
   }
+  if (context.lines.empty()) list_lines(context, own.cache);
   const auto outcome = own.fetcher.fetch(
       number, static_cast<std::uint32_t>(context.lines.size()), operation.kind,
       [&](std::uint32_t i) { return context.lines[i]; }, now);
   if (!outcome.complete) {
     park(number, now);
-    occupy_missed(outcome.lookups, now);
+    occupy_missed(outcome.port_cycles, now);
     return;
   }
   context.lines.clear();
   context.phase = Phase::kIssued;
   occupy(number, 0, own.cache.hit_latency() + operation.latency,
-         std::max<Cycles>(operation.port_cycles, outcome.lookups), now);
+         std::max<Cycles>(operation.port_cycles, outcome.port_cycles), now);
 }
 
-// Nobody waits for the lines; only a lack of MSHRs holds the unit up.
-void ElasticUnit::issue_writes(int number, Cycles now) {
+// Nobody waits for the lines; only a cache without room holds the unit up.
+void ElasticUnit::issue_write(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   const MemoryOperation& operation = operation_of(context);
-  PrivateCache& cache = caches_[operation.cache]->cache;
-  while (!context.lines.empty()) {
-    if (cache.modify(context.lines.back(), operation.kind, number, now) ==
-        PrivateCache::Result::kNoMshr) {
-      park(number, now);
-      occupy_missed(1, now);
-      return;
-    }
-    context.lines.pop_back();
+  const Address first = context.chain->steps[context.chain->next].record.address;
+  if (!modify_all(caches_[operation.cache]->cache, first, operation, number, context.bytes_done,
+                  now)) {
+    park(number, now);
+    occupy_missed(1, now);
+    return;
   }
+  context.num_accesses = 1;
   context.phase = Phase::kIssued;
   occupy(number, 0, 1 + operation.latency, operation.port_cycles, now);
 }
@@ -192,17 +189,16 @@ void ElasticUnit::list_lines(Context& context, const PrivateCache& cache) {
   } while (i != steps.size() && steps[i].record.continues);
   context.num_accesses = i - context.chain->next;
   keep_each_once(context.lines);
-  if (operation.write) std::ranges::reverse(context.lines);  // taken from the end
 }
 
-void ElasticUnit::finish_step(int number, Cycles now) {
+bool ElasticUnit::finish_step(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   for (; context.num_accesses > 1; --context.num_accesses)
     schedule_.leave_step(*context.chain, now);
   const bool calls = operation_of(context).calls;
   if (calls) context.phase = Phase::kCalled;
   schedule_.step_done(*context.chain, *this, number, now);
-  if (!calls) leave_step(number, now);
+  return !calls && leave_step(number, now);
 }
 
 void ElasticUnit::end_chain(int number, std::uint64_t record, Cycles now) {
@@ -224,7 +220,7 @@ Cycles ElasticUnit::flush_next(Cycles now) {
       for (const std::uint64_t line : own->cache.take_dirty_lines()) dirty_lines_.push_back(line);
     }
   }
-  if (dirty_lines_.empty()) return kNever;
+  if (dirty_lines_.empty() || !caches_.front()->cache.can_write()) return kNever;
   caches_.front()->cache.write_back(dirty_lines_.back(), now);
   dirty_lines_.pop_back();
   return now + 1;

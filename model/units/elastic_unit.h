@@ -41,6 +41,7 @@ class ElasticUnit final : public MultiContextUnit<ElasticUnit>, public ReplayedU
     ReplayChain* chain = nullptr;
     std::vector<std::uint64_t> lines;  ///< that the step in hand asks for
     std::size_t num_accesses = 0;      ///< of that step
+    Bytes bytes_done = 0;              ///< of a write
     Phase phase = Phase::kIdle;
     Cycles free_at = 0;  ///< the next chain begins no earlier
   };
@@ -54,20 +55,19 @@ class ElasticUnit final : public MultiContextUnit<ElasticUnit>, public ReplayedU
   };
 
   Cycles accept_inputs(Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] static Cycles earliest_input() { return 0; }
-  static QuickStep step_if_hit(int /*context*/, Cycles /*now*/) { return {}; }
 
   [[nodiscard]] const MemoryOperation& operation_of(const Context& context) const {
     return layout_.operations[context.chain->steps[context.chain->next].record.operation];
   }
   void begin(int context, ReplayChain& chain, Cycles at);
   void list_lines(Context& context, const PrivateCache& cache);
-  void issue_writes(int context, Cycles now);
-  void finish_step(int context, Cycles now);
-  void leave_step(int context, Cycles now);
-  void go_on(int context, Cycles now);
+  void issue_write(int context, Cycles now);
+  bool finish_step(int context, Cycles now);
+  bool leave_step(int context, Cycles now);
+  bool begin_step(int context, Cycles now);
   void end_chain(int context, std::uint64_t record, Cycles now);
   Cycles flush_next(Cycles now);
 

@@ -12,13 +12,13 @@ FilmUnit::FilmUnit(const sc_core::sc_module_name& name, const CacheSpec& cache, 
                    const MemoryMap& memory, ObjectPool<FilmBatch>& batches, FlowControl& flow,
                    ClockDomain& domain, TimedOut<LineRequest>& requests, std::uint16_t requester)
     : sc_module(name),
+      SteppingAgent(domain),
       in_batches("in_batches"),
       in_lines("in_lines"),
       film_(film),
       memory_(memory),
       batches_(batches),
       flow_(flow),
-      domain_(domain),
       cache_(cache, requests, requester) {
   inbox_.bind(domain, domain.add(*this));
   flow.bind_film(inbox_);
@@ -30,22 +30,14 @@ void FilmUnit::end_of_elaboration() {
   cache_.bind(inbox_);
 }
 
-Cycles FilmUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles FilmUnit::act(Cycles now) {
-  domain_.happened(now);
   accept_lines(now);
   if (batch_ == nullptr && in_batches->has_arrived(now)) {
     batch_ = in_batches->read(now);
     position_ = 0;
-    next_line_ = 0;
+    bytes_asked_for_ = 0;
     ++stats_.num_batches;
+    recorded_ = 0;
     if (recorder_ != nullptr) {
       const AccessCause cause = recorder_->recorder().arrive_at_film();
       recorder_->begin(0, cause, cause.sent + link_latency_, now);
@@ -53,7 +45,7 @@ Cycles FilmUnit::act(Cycles now) {
   }
   const Cycles next_line = in_lines->next_arrival();
   if (batch_ != nullptr) {
-    if (waits_for_mshr_ || !add_next(now)) {
+    if (waits_for_room_ || !add_next(now)) {
       stalls_.switch_to(StallCause::kWaitingMemory, now);
       return next_line;
     }
@@ -61,7 +53,8 @@ Cycles FilmUnit::act(Cycles now) {
     return now + 1;
   }
   const Cycles next = std::min(next_line, in_batches->next_arrival());
-  if (flow_.finished() && next == kNever && !cache_.has_pending()) return flush_next(now);
+  const bool finished = flow_.finished(now) && next == kNever && !cache_.has_pending();
+  if (flushing_ || finished) return flush_next(now);
   stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
   return next;
 }
@@ -70,26 +63,29 @@ void FilmUnit::accept_lines(Cycles now) {
   while (in_lines->has_arrived(now)) {
     std::uint64_t retry = 0;
     cache_.fill(in_lines->read(now), now, retry);
-    if (retry != 0) waits_for_mshr_ = false;
+    if (retry != 0) waits_for_room_ = false;
   }
 }
 
-// False if there is no free MSHR; the lines asked for so far are not asked for again.
+// False if the cache has no room for it; the lines asked for so far are not asked for again.
 bool FilmUnit::add_next(Cycles now) {
   const PixelContribution& contribution = (*batch_)[position_];
   const Address first = memory_.pixel(contribution.pixel);
-  const std::uint64_t last_line = cache_.line_of(first + film_.bytes_per_pixel() - 1);
-  if (next_line_ == 0) {
-    next_line_ = cache_.line_of(first);
-    if (recorder_ != nullptr) record_addition(first, now);
+  const Address end = first + film_.bytes_per_pixel();
+  const Bytes line = cache_.line_size();
+  if (recorder_ != nullptr && bytes_asked_for_ == 0 && recorded_ != position_ + 1) {
+    recorded_ = position_ + 1;
+    record_addition(first, now);
   }
-  for (; next_line_ <= last_line; ++next_line_) {
-    if (cache_.modify(next_line_, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
-      waits_for_mshr_ = true;
+  for (Address at = first + bytes_asked_for_; at != end; at = first + bytes_asked_for_) {
+    const Bytes bytes = std::min(end, (cache_.line_of(at) + 1) * line) - at;
+    if (cache_.modify(at, bytes, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
+      waits_for_room_ = true;
       return false;
     }
+    bytes_asked_for_ += bytes;
   }
-  next_line_ = 0;
+  bytes_asked_for_ = 0;
   film_.add(contribution.pixel, contribution.radiance);
   ++stats_.num_contributions;
   if (++position_ == batch_->size()) {
@@ -116,8 +112,12 @@ Cycles FilmUnit::flush_next(Cycles now) {
     dirty_lines_ = cache_.take_dirty_lines();
   }
   if (dirty_lines_.empty()) {
-    stalls_.switch_to(StallCause::kIdle, now);
-    return kNever;
+    stalls_.switch_to(cache_.has_pending() ? StallCause::kWaitingMemory : StallCause::kIdle, now);
+    return in_lines->next_arrival();
+  }
+  if (!cache_.can_write()) {
+    stalls_.switch_to(StallCause::kWaitingMemory, now);
+    return in_lines->next_arrival();
   }
   cache_.write_back(dirty_lines_.back(), now);
   dirty_lines_.pop_back();
@@ -128,7 +128,7 @@ Cycles FilmUnit::flush_next(Cycles now) {
 std::string FilmUnit::stuck_reason() const {
   if (batch_ == nullptr && !cache_.has_pending()) return {};
   return fmt::format("{}: {}", name(),
-                     waits_for_mshr_ ? "waits for a free MSHR" : "waits for memory");
+                     waits_for_room_ ? "waits for room in its cache" : "waits for memory");
 }
 
 }  // namespace sheaf

@@ -92,10 +92,13 @@ bool FixedUnit::load_step() try {
 bool FixedUnit::present(Cycles now) {
   const MemoryOperation& operation = layout_.operations[step_.operation];
   PrivateCache& cache = caches_[operation.cache]->cache;
+  if (operation.write) {
+    waits_for_mshr_ = !modify_all(cache, step_.address, operation, 0, bytes_done_, now);
+    if (!waits_for_mshr_) lines_.clear();
+    return !waits_for_mshr_;
+  }
   for (; !lines_.empty(); lines_.pop_back()) {
-    const auto result = operation.write ? cache.modify(lines_.back(), operation.kind, 0, now)
-                                        : cache.read(lines_.back(), operation.kind, 0, now);
-    if (result == PrivateCache::Result::kNoMshr) {
+    if (cache.read(lines_.back(), operation.kind, 0, now) == PrivateCache::Result::kNoMshr) {
       waits_for_mshr_ = true;
       return false;
     }
@@ -104,11 +107,12 @@ bool FixedUnit::present(Cycles now) {
 }
 
 Cycles FixedUnit::flush_next(Cycles now) {
-  if (!is_finished()) return kNever;
+  if (dirty_cache_ == 0 && !is_finished()) return kNever;
   while (dirty_lines_.empty()) {
     if (dirty_cache_ == caches_.size()) return kNever;
     dirty_lines_ = caches_[dirty_cache_++]->cache.take_dirty_lines();
   }
+  if (!caches_[dirty_cache_ - 1]->cache.can_write()) return kNever;
   caches_[dirty_cache_ - 1]->cache.write_back(dirty_lines_.back(), now);
   dirty_lines_.pop_back();
   return now + 1;

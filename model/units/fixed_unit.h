@@ -51,6 +51,7 @@ class FixedUnit final : public sc_core::sc_module, public Agent {
   // The step in hand; lines are taken from the end.
   MemoryRecord step_;
   std::vector<std::uint64_t> lines_;
+  Bytes bytes_done_ = 0;  ///< of a write
   bool all_read_ = false;
   bool waits_for_mshr_ = false;
   std::vector<std::uint64_t> dirty_lines_;

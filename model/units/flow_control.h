@@ -38,10 +38,14 @@ class WorstCase {
 
 /// Counts the rays in the loop and says when a tile is finished, when the ray cache must be swept
 /// and whether another primary packet fits.
+///
+/// What is asked for with a cycle is answered from registers: as it was at the end of the cycle
+/// before, whatever has changed in this one already. The source asks without, since it acts first
+/// in a cycle. Cycles never go back; without time they are all 0.
 class FlowControl {
  public:
   FlowControl(const FlowSpec& spec, const WorstCase& worst_case, std::uint64_t credits)
-      : worst_case_(worst_case), credits_(credits), by_tile_(spec.control == FlowPolicy::kTile) {}
+      : worst_case_(worst_case), credits_(credits), policy_(spec.control) {}
 
   void bind_source(Inbox& inbox) { source_ = &inbox; }
   void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }
@@ -62,73 +66,96 @@ class FlowControl {
     }
   }
 
-  [[nodiscard]] bool by_tile() const { return by_tile_; }
+  [[nodiscard]] bool by_tile() const { return policy_ == FlowPolicy::kTile; }
   [[nodiscard]] std::uint64_t worst_case(const RayTag& tag) const { return worst_case_.of(tag); }
   [[nodiscard]] bool admits(std::uint64_t reservation) const {
-    return by_tile_ || reserved_ + reservation <= credits_;
+    return policy_ != FlowPolicy::kCredits || reserved_ + reservation <= credits_;
   }
-  void admit(std::uint64_t rays, std::uint64_t reservation) {
-    live_ += rays;
+  void admit(std::uint64_t rays, std::uint64_t reservation, Cycles now) {
+    Counts& counts = change(now);
+    counts.live += rays;
     reserved_ += reservation;
-    max_live_ = std::max(max_live_, live_);
+    max_live_ = std::max(max_live_, counts.live);
   }
 
   /// One packet's rays have been shaded: `retired` rays are gone, `spawned` have come.
   void replace(std::uint64_t retired, std::uint64_t spawned, std::uint64_t reserved_before,
                std::uint64_t reserved_after, Cycles now) {
-    live_ = live_ + spawned - retired;
-    max_live_ = std::max(max_live_, live_);
+    Counts& counts = change(now);
+    counts.live = counts.live + spawned - retired;
+    max_live_ = std::max(max_live_, counts.live);
     reserved_ = reserved_ + reserved_after - reserved_before;
-    if (is_quiet()) {
+    if (counts.is_quiet()) {
       nudge(source_, now);
       nudge(regrouper_, now);
       nudge(shader_cache_, now);
-    } else if (!by_tile_) {
+    } else if (policy_ == FlowPolicy::kCredits) {
       nudge(source_, now);
     }
-    if (live_ == 0 && source_state_ == Source::kExhausted) nudge(film_, now);
+    if (counts.is_finished()) nudge(film_, now);
   }
 
   /// Rays in the cells of the ray cache, which move only when others arrive or a sweep comes.
   void set_waiting(std::uint64_t waiting, Cycles now) {
-    waiting_ = waiting;
-    if (waiting_for_shader_ != 0 && is_quiet()) nudge(shader_cache_, now);
+    Counts& counts = change(now);
+    counts.waiting = waiting;
+    if (counts.waiting_for_shader != 0 && counts.is_quiet()) nudge(shader_cache_, now);
   }
   /// The same in the cells of the shader cache, which are swept before those of the ray cache.
-  void set_waiting_for_shader(std::uint64_t waiting) { waiting_for_shader_ = waiting; }
-  [[nodiscard]] bool waits_for_shader() const { return waiting_for_shader_ != 0; }
+  void set_waiting_for_shader(std::uint64_t waiting, Cycles now) {
+    change(now).waiting_for_shader = waiting;
+  }
+  [[nodiscard]] bool waits_for_shader(Cycles now) const {
+    return seen(now).waiting_for_shader != 0;
+  }
   /// Nothing moves: every ray in the loop waits in a cell.
-  [[nodiscard]] bool is_quiet() const { return live_ == waiting_ + waiting_for_shader_; }
+  [[nodiscard]] bool is_quiet(Cycles now) const { return seen(now).is_quiet(); }
 
   enum class Source : std::uint8_t { kIssuing, kTileIssued, kNoCredit, kExhausted };
   void set_source(Source state, Cycles now) {
-    source_state_ = state;
-    if (state != Source::kIssuing && is_quiet()) {
+    Counts& counts = change(now);
+    counts.source = state;
+    if (state != Source::kIssuing && counts.is_quiet()) {
       nudge(regrouper_, now);
       nudge(shader_cache_, now);
-      if (live_ == 0 && state == Source::kExhausted) nudge(film_, now);
+      if (counts.is_finished()) nudge(film_, now);
     }
   }
-  [[nodiscard]] Source source() const { return source_state_; }
-  [[nodiscard]] std::uint64_t live() const { return live_; }
+  [[nodiscard]] Source source() const { return counts_.source; }
+  [[nodiscard]] Source source(Cycles now) const { return seen(now).source; }
+  [[nodiscard]] std::uint64_t live() const { return counts_.live; }
   [[nodiscard]] std::uint64_t max_live() const { return max_live_; }
-  [[nodiscard]] bool finished() const { return live_ == 0 && source_state_ == Source::kExhausted; }
+  [[nodiscard]] bool finished() const { return counts_.is_finished(); }
+  [[nodiscard]] bool finished(Cycles now) const { return seen(now).is_finished(); }
 
  private:
   static constexpr Cycles kNotice = 1;  ///< from a change to the wake-up of who waits for it
+  struct Counts {
+    std::uint64_t live = 0;
+    std::uint64_t waiting = 0;
+    std::uint64_t waiting_for_shader = 0;
+    Source source = Source::kIssuing;
+    [[nodiscard]] bool is_quiet() const { return live == waiting + waiting_for_shader; }
+    [[nodiscard]] bool is_finished() const { return live == 0 && source == Source::kExhausted; }
+  };
+  Counts& change(Cycles now) {
+    if (now != changed_) before_ = counts_;
+    changed_ = now;
+    return counts_;
+  }
+  [[nodiscard]] const Counts& seen(Cycles now) const { return now > changed_ ? counts_ : before_; }
   static void nudge(Inbox* inbox, Cycles now) {
     if (inbox != nullptr) inbox->nudge(now + kNotice);
   }
 
   const WorstCase worst_case_;
   const std::uint64_t credits_;
-  const bool by_tile_;
-  std::uint64_t live_ = 0;
-  std::uint64_t waiting_ = 0;
-  std::uint64_t waiting_for_shader_ = 0;
+  const FlowPolicy policy_;
+  Counts counts_;
+  Counts before_;       ///< at the end of the cycle before changed_
+  Cycles changed_ = 0;  ///< cycle of the last change
   std::uint64_t reserved_ = 0;
   std::uint64_t max_live_ = 0;
-  Source source_state_ = Source::kIssuing;
   Inbox* source_ = nullptr;
   Inbox* regrouper_ = nullptr;
   Inbox* shader_cache_ = nullptr;

@@ -52,97 +52,69 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
 // A job matters only while there is a context for it.
 Cycles IntersectionUnit::earliest_input() {
   const Cycles job = has_free_context() ? jobs_ahead_.earliest() : kNever;
-  return std::min(job, earliest_answer(parked(), lines_ahead_));
+  return or_answer(job, parked(), lines_ahead_);
 }
 
-void IntersectionUnit::ready(int number, Cycles now) {
+bool IntersectionUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   switch (context.phase) {
     case Phase::kList:
     case Phase::kTriangle:
-      enqueue(number);
-      return;
+      return true;
     case Phase::kTriangleIssued:
       ++context.tested;
       [[fallthrough]];
     case Phase::kListIssued:
       if (context.tested < context.job.num_tests) {
         context.phase = Phase::kTriangle;
-        enqueue(number);
-        return;
+        return true;
       }
       // The link has room for every context of the traversal unit.
       out_done[context.job.unit]->write_ahead({context.job.context}, now, context.job.context);
       if (recorder_ != nullptr) recorder_->end(number, now);
       free_context(number);
+      look_again();
       inbox_.set_next(std::min(inbox_.next(), std::max(jobs_.next_arrival(), now + 1)));
-      return;
+      return false;
   }
-}
-
-IntersectionUnit::QuickStep IntersectionUnit::step_if_hit(int number, Cycles now) {
-  Context& context = contexts_[static_cast<std::size_t>(number)];
-  const bool after_test = context.phase == Phase::kTriangleIssued;
-  if (!after_test && context.phase != Phase::kListIssued) return {};
-  const std::uint32_t position = context.tested + (after_test ? 1 : 0);
-  if (position == context.job.num_tests) return {};
-  const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
-  const Address address = scene_.memory.triangle(scene_.tree.leaf_triangles[first + position]);
-  const std::uint64_t first_line = cache_.line_of(address);
-  const std::uint64_t last_line = cache_.line_of(address + MemoryMap::kTriangleSize - 1);
-  for (std::uint64_t line = first_line + 1; line <= last_line; ++line) {
-    if (!cache_.holds(line)) return {};
-  }
-  if (!cache_.read_if_hit(first_line, DataKind::kTriangle)) return {};
-  for (std::uint64_t line = first_line + 1; line <= last_line; ++line) {
-    cache_.read_if_hit(line, DataKind::kTriangle);
-  }
-  context.tested = position;
-  if (recorder_ != nullptr) {
-    context.phase = Phase::kTriangle;
-    record_step(number, now);
-  }
-  context.phase = Phase::kTriangleIssued;
-  const Cycles lookups = last_line - first_line + 1;
-  return {true, std::max(slots_per_step_ * spec_.initiation_interval, lookups),
-          cache_.hit_latency() + spec_.latency};
+  return false;
 }
 
 bool IntersectionUnit::fetch(int number, Address first, Bytes bytes, DataKind kind,
-                             std::uint32_t& lookups, Cycles now) {
+                             Cycles& port_cycles, Cycles now) {
   const std::uint64_t first_line = cache_.line_of(first);
   const auto num_lines =
       static_cast<std::uint32_t>(cache_.line_of(first + bytes - 1) - first_line + 1);
   const auto outcome = fetcher_.fetch(
       number, num_lines, kind, [&](std::uint32_t i) { return first_line + i; }, now);
-  lookups = outcome.lookups;
+  port_cycles = outcome.port_cycles;
   return outcome.complete;
 }
 
 void IntersectionUnit::issue(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
-  std::uint32_t lookups = 0;
+  Cycles port_cycles = 0;
   bool complete = false;
   if (recorder_ != nullptr && !fetcher_.has_begun(number)) record_step(number, now);
   if (context.phase == Phase::kList) {
-    complete =
-        fetch(number, scene_.memory.leaf_entry(first),
-              context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList, lookups, now);
+    complete = fetch(number, scene_.memory.leaf_entry(first),
+                     context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList,
+                     port_cycles, now);
     if (complete) context.phase = Phase::kListIssued;
   } else {
     const std::uint32_t triangle = scene_.tree.leaf_triangles[first + context.tested];
     complete = fetch(number, scene_.memory.triangle(triangle), MemoryMap::kTriangleSize,
-                     DataKind::kTriangle, lookups, now);
+                     DataKind::kTriangle, port_cycles, now);
     if (complete) context.phase = Phase::kTriangleIssued;
   }
   if (!complete) {
     park(number, now + times_.line);
-    occupy_missed(lookups, now);
+    occupy_missed(port_cycles, now);
   } else if (context.phase == Phase::kListIssued) {
-    occupy_fetch(number, cache_.hit_latency(), lookups, now);
+    occupy_fetch(number, cache_.hit_latency(), port_cycles, now);
   } else {
-    occupy(number, slots_per_step_, cache_.hit_latency(), lookups, now);
+    occupy(number, slots_per_step_, cache_.hit_latency(), port_cycles, now);
   }
 }
 

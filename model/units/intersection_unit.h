@@ -25,6 +25,11 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   sc_core::sc_port<TimedOut<LeafDone>, 0> out_done;  ///< one per traversal unit
 
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  [[nodiscard]] PrivateCache& cache() { return cache_; }
+  /// The job of a context that is held.
+  [[nodiscard]] const LeafJob& job(int context) const {
+    return contexts_[static_cast<std::size_t>(context)].job;
+  }
   [[nodiscard]] std::string stuck_reason() const override;
 
   /// Has all its steps taken down; jobs come `link_latency` after they are sent.
@@ -45,13 +50,12 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   void end_of_elaboration() override;
   void start_of_simulation() override;
   Cycles accept_inputs(Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  QuickStep step_if_hit(int context, Cycles now);
   void record_begin(int context, Cycles now);
   void record_step(int context, Cycles now);
-  bool fetch(int context, Address first, Bytes bytes, DataKind kind, std::uint32_t& lookups,
+  bool fetch(int context, Address first, Bytes bytes, DataKind kind, Cycles& port_cycles,
              Cycles now);
 
   const TracedScene scene_;

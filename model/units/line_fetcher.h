@@ -22,8 +22,8 @@ class LineFetcher {
   explicit LineFetcher(PrivateCache& cache) : cache_(cache) {}
 
   struct Outcome {
-    bool complete = false;      ///< every line is there
-    std::uint32_t lookups = 0;  ///< made now
+    bool complete = false;   ///< every line is there
+    Cycles port_cycles = 0;  ///< in which the look-ups made now find a port
   };
 
   /// Asks for the lines that the context's step has not asked for yet; line(i) is the i-th of
@@ -35,11 +35,17 @@ class LineFetcher {
     Outcome outcome;
     progress.begun = true;
     while (progress.next < num_lines) {
-      ++outcome.lookups;
+      ++outcome.port_cycles;
       const auto result = cache_.read(line(progress.next), kind, context, now);
       if (result == PrivateCache::Result::kNoMshr) break;
       if (result == PrivateCache::Result::kPending) ++progress.pending;
       ++progress.next;
+    }
+    if (!cache_.is_plain()) {
+      // The last look-up came to nothing if a line is left.
+      const std::uint32_t end = progress.next + (progress.next < num_lines ? 1 : 0);
+      const auto looked_up = static_cast<std::uint32_t>(outcome.port_cycles);
+      outcome.port_cycles = cache_.port_cycles(end - looked_up, end, line);
     }
     outcome.complete = progress.next == num_lines && progress.pending == 0;
     if (outcome.complete) progress = {};
@@ -49,6 +55,20 @@ class LineFetcher {
   /// Whether the context's step has been issued before and still misses lines.
   [[nodiscard]] bool has_begun(int context) const {
     return progress_[static_cast<std::size_t>(context)].begun;
+  }
+
+  /// The same for a step that needs one line.
+  bool fetch_one(int context, std::uint64_t line, DataKind kind, Cycles now) {
+    LineFetch& progress = progress_[static_cast<std::size_t>(context)];
+    if (progress.next != 0) {  // it has come
+      progress = {};
+      return true;
+    }
+    const auto result = cache_.read(line, kind, context, now);
+    if (result == PrivateCache::Result::kPending) progress = {1, 1, true};
+    if (result == PrivateCache::Result::kNoMshr) progress.begun = true;
+    if (result == PrivateCache::Result::kHit) progress.begun = false;
+    return result == PrivateCache::Result::kHit;
   }
 
   /// Takes an arrived line in; calls ready(context) for each context that may be issued again.

@@ -39,29 +39,31 @@ SHEAF_STATS(PipelineStats, SHEAF_PIPELINE_COUNTERS);
 /// (earliest_input), which it knows from what it has asked for and from when those it has asked act
 /// next. All it writes carries its own time.
 ///
-/// Derived provides: accept_inputs(now), ready(context, now) for a context whose time has come,
-/// issue(context, now), earliest_input(), and step_if_hit(context, now), which does what ready()
-/// and issue() would do for a context whose step is done and whose next one finds all its lines,
-/// and nothing in any other case; it calls the protected members below.
+/// Derived provides: accept_inputs(now); ready(context, now), called when a context's time has
+/// come, which does what is due and tells whether the context wants the issue port; issue(context,
+/// now); and earliest_input(). It calls the protected members below.
 template <typename Derived>
 class MultiContextUnit : public sc_core::sc_module, public Agent {
  public:
-  Cycles wake(Cycles now) final {
+  // Flattened: a wake-up is a few short calls, each of which would save and restore registers.
+  [[gnu::flatten]] Cycles wake(Cycles now) final {
+    // What arrives behind the unit's own time found no free context until then.
+    if (now <= latest_ && !resumes_) return latest_ + 1;
+    resumes_ = false;
+    bound_ = now + 1;
     for (;;) {
-      // What arrives behind the unit's own time found no free context until then.
-      if (now <= latest_ && !resumes_) return latest_ + 1;
-      latest_ = now;
       act(now);
-      resumes_ = held_back_;
-      held_back_ = false;
-      if (resumes_) return now;
-      const Cycles until = safe_until();
-      step_quickly(std::min(until, inbox_.next()));
-      Cycles next = std::min(agenda_.next(), inbox_.next());
-      if (!ready_.is_empty()) next = std::min(next, port_free_);
-      if (next >= until) return next;
-      now = next;
+      if (held_back_) {
+        held_back_ = false;
+        resumes_ = true;
+        break;
+      }
+      now = next_event();
+      if (now < bound_) continue;
+      if (now >= domain_.end() || !is_safe(now)) break;
     }
+    domain_.happened(latest_);
+    return now;
   }
 
   [[nodiscard]] const PipelineStats& pipeline_stats() const { return pipeline_stats_; }
@@ -72,14 +74,15 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   }
   [[nodiscard]] int num_held() const { return std::popcount(held_); }
 
- protected:
-  /// What step_if_hit() gives.
-  struct QuickStep {
-    bool taken = false;
-    Cycles port_cycles = 0;
-    Cycles latency = 0;
-  };
+  // As of cycle `now`, up to which everything has been done.
+  [[nodiscard]] StallCause cause_at(Cycles now) const {
+    return busy_until_ > now ? StallCause::kBusy : waiting_cause();
+  }
+  [[nodiscard]] bool port_taken_at(Cycles now) const { return port_free_ > now; }
+  /// Bit i: context i is held.
+  [[nodiscard]] std::uint64_t held_contexts() const { return held_; }
 
+ protected:
   MultiContextUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
                    ClockDomain& domain)
       : sc_module(name),
@@ -114,8 +117,6 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
 
   /// ready(context) will be called at `time`.
   void schedule(int context, Cycles time) { agenda_.insert(context, time); }
-  /// Joins the queue for the issue port.
-  void enqueue(int context) { ready_.push(context); }
   /// Occupies the port for a whole step and schedules the context for when it is done.
   /// `hit_latency`: of the lines it fetched, 0 if none; `port_cycles`: cycles that these accesses
   /// need of the cache port, if more than its slots.
@@ -145,6 +146,10 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     schedule(context, now);
   }
 
+  /// To be called whenever the unit has written to another one or a context has become free: what
+  /// follows may be felt earlier than was known, and has to be looked up again.
+  void look_again() { bound_ = 0; }
+
   // Contexts that wait for an answer of another unit, which cannot come before `earliest`.
   void await(int context, Cycles earliest) {
     awaiting_ |= std::uint64_t{1} << context;
@@ -152,23 +157,30 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   }
   void answered(int context) { awaiting_ &= ~(std::uint64_t{1} << context); }
   [[nodiscard]] std::uint64_t awaiting() const { return awaiting_; }
-  /// The earliest answer that one of these contexts, or line that one of these parked ones, can get
-  /// over links of this lookahead.
-  [[nodiscard]] Cycles earliest_answer(std::uint64_t contexts, const Lookahead& links) const {
-    if (contexts == 0) return kNever;
-    Cycles earliest = kNever;
+  /// The least of `input` and of the earliest answer that one of these contexts, or line that one
+  /// of these parked ones, can get over links of this lookahead.
+  [[nodiscard]] Cycles or_answer(Cycles input, std::uint64_t contexts,
+                                 const Lookahead& links) const {
+    if (contexts == 0) return input;
+    const Cycles over_links = links.earliest();
+    if (over_links >= input) return input;
+    Cycles awaited = kNever;
     for (std::uint64_t left = contexts; left != 0; left &= left - 1) {
-      earliest = std::min(earliest, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
+      awaited = std::min(awaited, awaited_[static_cast<std::size_t>(std::countr_zero(left))]);
     }
-    return std::max(earliest, links.earliest());
+    return std::min(input, std::max(awaited, over_links));
   }
 
   // Contexts that a full channel holds up.
-  void block(int context) { blocked_ |= std::uint64_t{1} << context; }
+  void block(int context) {
+    blocked_ |= std::uint64_t{1} << context;
+    look_again();
+  }
   void unblock(int context) { blocked_ &= ~(std::uint64_t{1} << context); }
 
   // Contexts whose step waits for lines.
   void park(int context, Cycles earliest_line) {
+    if (earliest_line < bound_) bound_ = earliest_line;
     parked_ |= std::uint64_t{1} << context;
     awaited_[static_cast<std::size_t>(context)] = earliest_line;
   }
@@ -184,46 +196,48 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   const std::uint32_t slots_per_step_;
 
  private:
-  [[nodiscard]] Cycles safe_until() {
-    const Cycles others = domain_.horizon();
+  // Looks up the bound as far as is needed to tell whether `next` is below it.
+  [[nodiscard]] bool is_safe(Cycles next) {
+    bound_ = std::min(domain_.horizon(), domain_.end());
+    if (next < bound_) return true;
     // A blocked context may be let go at any time.
-    if (blocked_ != 0 || domain_.in_step()) return others;
+    if (blocked_ != 0 || domain_.in_step()) return false;
     const Cycles input = static_cast<Derived&>(*this).earliest_input();
-    return std::min({std::max(others, input), domain_.limit(), domain_.end()});
+    bound_ = std::max(bound_, std::min({input, domain_.limit(), domain_.end()}));
+    return next < bound_;
+  }
+  [[nodiscard]] Cycles next_event() const {
+    const Cycles next = std::min(agenda_.next(), inbox_.next());
+    return ready_.is_empty() ? next : std::min(next, port_free_);
   }
 
-  // The common case, in few words: contexts whose step is done and whose next one finds its lines,
-  // one after the other, until anything else is due. Port and cache see them in the order in which
-  // act() would show them.
-  void step_quickly(Cycles until) {
-    if (!ready_.is_empty() || blocked_ != 0) return;
-    auto& self = static_cast<Derived&>(*this);
-    while (agenda_.next() < until) {
-      const Cycles due = agenda_.next();
-      const Cycles now = std::max(due, port_free_);
-      if (now >= until) return;
-      const QuickStep step = self.step_if_hit(agenda_.first(), now);
-      if (!step.taken) return;
-      account(due);
-      occupy_for(agenda_.pop(), step.port_cycles, step.latency, now);
-      latest_ = due - 1;  // another context may be due with it
-      domain_.happened(now);
-    }
-  }
-
+  // All that is due at `now`: inputs first, then contexts, then the issue port.
   void act(Cycles now) {
+    latest_ = now;
     account(now);
-    domain_.happened(now);
     auto& self = static_cast<Derived&>(*this);
     if (inbox_.next() <= now) inbox_.set_next(self.accept_inputs(now));
     for (std::uint64_t left = blocked_; left != 0; left &= left - 1) {
-      self.ready(std::countr_zero(left), now);
+      go_on(std::countr_zero(left), now);
     }
     while (agenda_.next() == now) {
-      self.ready(agenda_.pop(), now);
+      go_on(agenda_.pop(), now);
       if (held_back_) return;  // the rest of this cycle waits with it
     }
     if (!ready_.is_empty() && port_free_ <= now) self.issue(ready_.pop(), now);
+  }
+
+  // A context that wants the port gets it at once, ahead of time, if nothing can happen until it
+  // is free: it is next in the queue, and what other contexts do meanwhile changes nothing for it.
+  void go_on(int context, Cycles now) {
+    auto& self = static_cast<Derived&>(*this);
+    if (!self.ready(context, now)) return;
+    const Cycles start = std::max(now, port_free_);
+    if (ready_.is_empty() && start < std::min(bound_, inbox_.next())) {
+      self.issue(context, start);
+    } else {
+      ready_.push(context);
+    }
   }
 
   void occupy_for(int context, Cycles taken, Cycles latency, Cycles now) {
@@ -260,6 +274,7 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
   bool held_back_ = false;
   bool resumes_ = false;  ///< goes on with the cycle in which it was held back
   Cycles latest_ = 0;     ///< everything up to this cycle has been done
+  Cycles bound_ = 0;      ///< nothing can arrive before this cycle, as far as has been looked up
   Cycles port_free_ = 0;
   Cycles busy_until_ = 0;
   PipelineStats pipeline_stats_;

@@ -13,12 +13,12 @@ PacketArbiter::PacketArbiter(const sc_core::sc_module_name& name, const ArbiterS
                              std::uint32_t num_units, std::uint32_t contexts_per_unit,
                              ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_primary("in_primary"),
       in_secondary("in_secondary"),
       in_free("in_free"),
       out_packets("out_packets"),
       spec_(spec),
-      domain_(domain),
       free_contexts_(num_units, contexts_per_unit) {
   inbox_.bind(domain, domain.add(*this));
 }
@@ -33,16 +33,7 @@ void PacketArbiter::end_of_elaboration() {
   }
 }
 
-Cycles PacketArbiter::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles PacketArbiter::act(Cycles now) {
-  domain_.happened(now);
   while (in_free->has_arrived(now)) ++free_contexts_[in_free->read(now).unit];
   const bool has_primary = in_primary->has_arrived(now);
   const bool has_secondary = secondary_ != nullptr && secondary_->has_arrived(now);
@@ -57,9 +48,11 @@ Cycles PacketArbiter::act(Cycles now) {
   }
   const bool has_packet = has_primary || has_secondary;
   stalls_.switch_to(has_packet ? StallCause::kBlockedOutput : StallCause::kIdle, now);
-  if (!has_context) return in_free->next_arrival();
-  const Cycles next_secondary = secondary_ != nullptr ? secondary_->next_arrival() : kNever;
-  return std::min({in_free->next_arrival(), in_primary->next_arrival(), next_secondary});
+  // What has come already waits for a context; what comes later is at least accounted for.
+  const Cycles next_primary = has_primary ? kNever : in_primary->next_arrival();
+  const Cycles next_secondary =
+      secondary_ == nullptr || has_secondary ? kNever : secondary_->next_arrival();
+  return std::min({in_free->next_arrival(), next_primary, next_secondary});
 }
 
 bool PacketArbiter::choose_secondary(bool has_primary, bool has_secondary) const {

@@ -5,6 +5,7 @@
 #include <systemc>
 #include <vector>
 
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "config/config.h"
 #include "stats/counters.h"
@@ -23,7 +24,7 @@ SHEAF_STATS(ArbiterStats, SHEAF_ARBITER_COUNTERS);
 
 /// Chooses the next packet for a free traversal context, one a cycle: of the two sources by policy,
 /// of the traversal units the one with most free contexts (of equals the lowest).
-class PacketArbiter final : public sc_core::sc_module, public Agent {
+class PacketArbiter final : public sc_core::sc_module, public SteppingAgent {
  public:
   PacketArbiter(const sc_core::sc_module_name& name, const ArbiterSpec& spec,
                 std::uint32_t num_units, std::uint32_t contexts_per_unit, ClockDomain& domain);
@@ -34,7 +35,6 @@ class PacketArbiter final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedIn<ContextFree>> in_free;
   sc_core::sc_port<TimedOut<RayPacket*>, 0> out_packets;  ///< one per traversal unit
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   [[nodiscard]] const ArbiterStats& stats() const { return stats_; }
@@ -43,12 +43,11 @@ class PacketArbiter final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   [[nodiscard]] bool choose_secondary(bool has_primary, bool has_secondary) const;
   void dispatch(RayPacket* packet, bool secondary, std::size_t unit, Cycles now);
 
   const ArbiterSpec spec_;
-  ClockDomain& domain_;
   Inbox inbox_;
   TimedIn<RayPacket*>* secondary_ = nullptr;
   std::vector<std::uint32_t> free_contexts_;  ///< of each traversal unit

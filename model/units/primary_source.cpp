@@ -24,8 +24,9 @@ std::uint32_t make_primary_packet(const Camera& camera, const ImageSpec& image,
 PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimarySourceSpec& spec,
                              const ImageSpec& image, const TileOrder& order, const Camera& camera,
                              PacketPool& packets, RayCounts& rays, FlowControl& flow,
-                             ClockDomain& domain)
+                             ClockDomain& domain, TileObserver* observer)
     : sc_module(name),
+      SteppingAgent(domain),
       out_packets("out_packets"),
       spec_(spec),
       image_(image),
@@ -34,7 +35,7 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
       packets_(packets),
       rays_(rays),
       flow_(flow),
-      domain_(domain) {
+      observer_(observer) {
   const std::size_t agent = domain.add(*this);
   inbox_.bind(domain, agent);
   flow.bind_source(inbox_);
@@ -43,14 +44,6 @@ PrimarySource::PrimarySource(const sc_core::sc_module_name& name, const PrimaryS
 
 void PrimarySource::end_of_elaboration() {
   out_packets->add_producer(inbox_);
-}
-
-Cycles PrimarySource::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
 }
 
 // Makes the next packet if there is one to be made now.
@@ -67,13 +60,13 @@ bool PrimarySource::prepare_packet(Cycles now) {
       if (recorder_ != nullptr && flow_.by_tile()) explain(recorder_->begin_epoch(now), now);
     }
     if (!order_.next_run(run)) {
-      const bool last = order_.tile_index() + 1 == order_.num_tiles();
-      if (flow_.by_tile() && flow_.live() != 0 && !last) {
+      if (flow_.by_tile() && flow_.live() != 0 && !order_.is_last()) {
         flow_.set_source(FlowControl::Source::kTileIssued, now);
         return false;
       }
       order_.next_tile();
       tile_begun_ = false;
+      num_admitted_ = 0;
       continue;
     }
     packet_ = packets_.acquire();
@@ -94,7 +87,6 @@ void PrimarySource::explain(const AccessCause& cause, Cycles now) {
 }
 
 Cycles PrimarySource::act(Cycles now) {
-  domain_.happened(now);
   if (now < next_packet_) return next_packet_;
   if (!prepare_packet(now)) {
     stalls_.switch_to(flow_.source() == FlowControl::Source::kExhausted ? StallCause::kIdle
@@ -120,9 +112,10 @@ Cycles PrimarySource::act(Cycles now) {
   for (LaneMask left = packet_->active; left != 0; left &= left - 1) {
     rays_.spawn(packet_->tag[static_cast<std::size_t>(std::countr_zero(left))]);
   }
+  if (num_admitted_++ == 0 && observer_ != nullptr) observer_->tile_begins(order_.tile(), now);
   ++stats_.num_packets;
   stats_.num_rays += rays;
-  flow_.admit(rays, reservation_);
+  flow_.admit(rays, reservation_, now);
   packet_->cause = cause_;
   packet_->cause.sent = unhindered_ + way_;
   unhindered_ += spec_.interval;
@@ -138,7 +131,7 @@ std::string PrimarySource::stuck_reason() const {
   const char* why = "the tile has not finished";
   if (flow_.source() == FlowControl::Source::kNoCredit) why = "no credit for the next packet";
   if (flow_.source() == FlowControl::Source::kIssuing) why = "its link to the arbiter is full";
-  return fmt::format("{}: {} of {} tiles begun, {}", name(), order_.tile_index(),
+  return fmt::format("{}: {} of {} tiles begun, {}", name(), order_.num_visited(),
                      order_.num_tiles(), why);
 }
 

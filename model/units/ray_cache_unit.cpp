@@ -12,13 +12,13 @@ RayCacheUnit::RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSp
                            std::unique_ptr<RaySorter> sorter, ObjectPool<SpawnBundle>& bundles,
                            FlowControl& flow, ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_bundles("in_bundles"),
       out_packets("out_packets"),
       spec_(spec),
       sorter_(std::move(sorter)),
       bundles_(bundles),
-      flow_(flow),
-      domain_(domain) {
+      flow_(flow) {
   inbox_.bind(domain, domain.add(*this));
   flow.bind_regrouper(inbox_);
 }
@@ -28,16 +28,7 @@ void RayCacheUnit::end_of_elaboration() {
   out_packets->add_producer(inbox_);
 }
 
-Cycles RayCacheUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles RayCacheUnit::act(Cycles now) {
-  domain_.happened(now);
   if (!send_departures(now)) {
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return kNever;  // woken when the FIFO has room
@@ -103,10 +94,11 @@ Cycles RayCacheUnit::next_time_out() const {
 }
 
 bool RayCacheUnit::sweep(Cycles now) {
-  flow_.set_waiting(sorter_->num_waiting(), now);
-  if (sorter_->num_waiting() == 0 || !flow_.is_quiet() || flow_.waits_for_shader()) return false;
-  if (flow_.source() == FlowControl::Source::kIssuing) return false;
-  sorter_->sweep(sweep_reason(), now, departures_);
+  if (sorter_->num_waiting() == 0 || !flow_.is_quiet(now) || flow_.waits_for_shader(now)) {
+    return false;
+  }
+  if (flow_.source(now) == FlowControl::Source::kIssuing) return false;
+  sorter_->sweep(sweep_reason(now), now, departures_);
   if (recorder_ != nullptr) explain_departures(recorder_->begin_epoch(now), now);
   return true;
 }
@@ -119,10 +111,10 @@ void RayCacheUnit::explain_departures(const AccessCause& cause, Cycles now) {
   }
 }
 
-Departure RayCacheUnit::sweep_reason() const {
+Departure RayCacheUnit::sweep_reason(Cycles now) const {
   if (flow_.by_tile()) return Departure::kSweptTile;
-  return flow_.source() == FlowControl::Source::kExhausted ? Departure::kSweptFrame
-                                                           : Departure::kSweptStall;
+  return flow_.source(now) == FlowControl::Source::kExhausted ? Departure::kSweptFrame
+                                                              : Departure::kSweptStall;
 }
 
 std::string RayCacheUnit::stuck_reason() const {

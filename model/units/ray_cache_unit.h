@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/object_pool.h"
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "sorting/ray_sorter.h"
 #include "sorting/spawn_bundle.h"
@@ -19,7 +20,7 @@ namespace sheaf {
 /// The ray cache: takes spawned rays in, bundle by bundle and rays_per_cycle at a time, and sends
 /// the packets that leave to the FIFO. While the FIFO is full nothing is taken in. Sweeps its cells
 /// when nothing else moves and the source has nothing to add.
-class RayCacheUnit final : public sc_core::sc_module, public Agent {
+class RayCacheUnit final : public sc_core::sc_module, public SteppingAgent {
  public:
   RayCacheUnit(const sc_core::sc_module_name& name, const RayCacheSpec& spec,
                std::unique_ptr<RaySorter> sorter, ObjectPool<SpawnBundle>& bundles,
@@ -28,7 +29,6 @@ class RayCacheUnit final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedIn<SpawnBundle*>> in_bundles;
   sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   /// Packets that leave carry their cause; they reach a traversal unit `way` later at the earliest.
@@ -43,20 +43,19 @@ class RayCacheUnit final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   bool send_departures(Cycles now);
   bool insert_rays(Cycles now);
   bool time_out(Cycles now);
   bool sweep(Cycles now);
   void explain_departures(const AccessCause& cause, Cycles now);
-  [[nodiscard]] Departure sweep_reason() const;
+  [[nodiscard]] Departure sweep_reason(Cycles now) const;
   [[nodiscard]] Cycles next_time_out() const;
 
   const RayCacheSpec spec_;
   std::unique_ptr<RaySorter> sorter_;
   ObjectPool<SpawnBundle>& bundles_;
   FlowControl& flow_;
-  ClockDomain& domain_;
   Inbox inbox_;
   SpawnBundle* bundle_ = nullptr;  ///< being taken in
   std::size_t position_ = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "memory/private_cache.h"
+#include "tracefile/memory_layout.h"
 
 namespace sheaf {
 
@@ -17,6 +18,21 @@ inline void add_lines(Address first, Bytes bytes, const PrivateCache& cache,
        ++line) {
     lines.push_back(line);
   }
+}
+
+/// Adds to an access's bytes, line by line, from where it was left; false if the cache has no room.
+inline bool modify_all(PrivateCache& cache, Address first, const MemoryOperation& operation,
+                       int waiter, Bytes& done, Cycles now) {
+  const Address end = first + operation.bytes;
+  for (Address at = first + done; at != end; at = first + done) {
+    const Bytes bytes = std::min<Address>(end, (cache.line_of(at) + 1) * cache.line_size()) - at;
+    if (cache.modify(at, bytes, operation.kind, waiter, now) == PrivateCache::Result::kNoMshr) {
+      return false;
+    }
+    done += bytes;
+  }
+  done = 0;
+  return true;
 }
 
 /// A step asks for each line once, in ascending order.

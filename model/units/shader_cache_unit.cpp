@@ -13,12 +13,12 @@ ShaderCacheUnit::ShaderCacheUnit(const sc_core::sc_module_name& name, const Shad
                                  const Scene& scene, PacketPool& packets, FlowControl& flow,
                                  ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_packets("in_packets"),
       out_packets("out_packets"),
       spec_(spec),
       sorter_(spec, scene, packets),
-      flow_(flow),
-      domain_(domain) {
+      flow_(flow) {
   inbox_.bind(domain, domain.add(*this));
   flow.bind_shader_cache(inbox_);
 }
@@ -28,22 +28,14 @@ void ShaderCacheUnit::end_of_elaboration() {
   outputs_.bind(out_packets, inbox_);
 }
 
-Cycles ShaderCacheUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles ShaderCacheUnit::act(Cycles now) {
+  if (now < busy_until_) return busy_until_;
   if (!send_departures(now)) {
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return kNever;  // woken when a shader unit has room
   }
-  if (now < busy_until_) return busy_until_;
   const bool worked = accept_packet(now) || sweep(now);
-  flow_.set_waiting_for_shader(sorter_.num_waiting());
+  flow_.set_waiting_for_shader(sorter_.num_waiting(), now);
   if (worked) {
     stalls_.switch_to(StallCause::kBusy, now);
     return std::max(busy_until_, now + 1);
@@ -75,9 +67,8 @@ bool ShaderCacheUnit::accept_packet(Cycles now) {
 }
 
 bool ShaderCacheUnit::sweep(Cycles now) {
-  flow_.set_waiting_for_shader(sorter_.num_waiting());
-  if (sorter_.num_waiting() == 0 || !flow_.is_quiet()) return false;
-  if (flow_.source() == FlowControl::Source::kIssuing) return false;
+  if (sorter_.num_waiting() == 0 || !flow_.is_quiet(now)) return false;
+  if (flow_.source(now) == FlowControl::Source::kIssuing) return false;
   sorter_.sweep(departures_);
   if (recorder_ != nullptr) explain_departures(recorder_->begin_epoch(now), now);
   return true;

@@ -5,6 +5,7 @@
 #include <systemc>
 #include <vector>
 
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "sorting/shading_sorter.h"
 #include "stats/stall_account.h"
@@ -17,7 +18,7 @@ namespace sheaf {
 /// The shader cache: takes traced packets in, rays_per_cycle at a time, and sends the packets that
 /// leave its cells to the shader units in turn. While these are busy nothing is taken in. Sweeps
 /// its cells when nothing else moves and the source has nothing to add, before the ray cache does.
-class ShaderCacheUnit final : public sc_core::sc_module, public Agent {
+class ShaderCacheUnit final : public sc_core::sc_module, public SteppingAgent {
  public:
   ShaderCacheUnit(const sc_core::sc_module_name& name, const ShaderCacheSpec& spec,
                   const Scene& scene, PacketPool& packets, FlowControl& flow, ClockDomain& domain);
@@ -25,7 +26,6 @@ class ShaderCacheUnit final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedIn<RayPacket*>, 0> in_packets;    ///< one per traversal unit
   sc_core::sc_port<TimedOut<RayPacket*>, 0> out_packets;  ///< one per shader unit
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   /// Packets that leave carry their cause.
@@ -37,7 +37,7 @@ class ShaderCacheUnit final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   bool send_departures(Cycles now);
   bool accept_packet(Cycles now);
   bool sweep(Cycles now);
@@ -46,7 +46,6 @@ class ShaderCacheUnit final : public sc_core::sc_module, public Agent {
   const ShaderCacheSpec spec_;
   ShadingSorter sorter_;
   FlowControl& flow_;
-  ClockDomain& domain_;
   Inbox inbox_;
   MergedInput<RayPacket*> inputs_;
   RoundRobin<RayPacket*> outputs_;

@@ -124,19 +124,16 @@ void ShaderUnit::list_addresses(const Context& context, std::vector<Address>& ad
   }
 }
 
-void ShaderUnit::ready(int number, Cycles now) {
+bool ShaderUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
-  if (context.phase == Phase::kOutput) {
-    send_output(number, now);
-  } else if (!context.issued) {
-    enqueue(number);
-  } else if (context.phase == Phase::kCompute) {
-    prepare_output(context);
-    send_output(number, now);
-  } else {
+  if (context.phase != Phase::kOutput && !context.issued) return true;
+  if (context.phase < Phase::kCompute) {
     begin_phase(number, static_cast<Phase>(static_cast<int>(context.phase) + 1));
-    enqueue(number);
+    return true;
   }
+  if (context.phase == Phase::kCompute) prepare_output(context);
+  send_output(number, now);
+  return false;
 }
 
 void ShaderUnit::issue(int number, Cycles now) {
@@ -158,10 +155,10 @@ void ShaderUnit::issue(int number, Cycles now) {
   if (outcome.complete) {
     context.issued = true;
     const Cycles hit_latency = texels ? textures_->hit_latency() : attributes_.hit_latency();
-    occupy_fetch(number, hit_latency, outcome.lookups, now);
+    occupy_fetch(number, hit_latency, outcome.port_cycles, now);
   } else {
     park(number, now);
-    occupy_missed(outcome.lookups, now);
+    occupy_missed(outcome.port_cycles, now);
   }
 }
 
@@ -224,6 +221,11 @@ void ShaderUnit::send_output(int number, Cycles now) {
       recorder_->recorder().send_to_film(recorder_->cause(number));
     }
   }
+  if (context.bundle != nullptr && out_bundles->num_free(now) == 0) {
+    out_bundles->notify_when_free(inbox_);
+    block(number);
+    return;
+  }
   std::uint64_t spawned = 0;
   std::uint64_t reserved = 0;
   if (context.bundle != nullptr) {
@@ -236,7 +238,6 @@ void ShaderUnit::send_output(int number, Cycles now) {
       recorder_->set_out(number, now);
       context.bundle->cause = recorder_->cause(number);
     }
-    // Flow control keeps this link from ever being full.
     out_bundles->nb_write(context.bundle, now);
     context.bundle = nullptr;
   }
@@ -244,6 +245,7 @@ void ShaderUnit::send_output(int number, Cycles now) {
   if (recorder_ != nullptr) {
     recorder_->recorder().retire(recorder_->end(number, now));
   }
+  look_again();
   retire(context, spawned, reserved, now);
   free_context(number);
   inbox_.set_next(std::min(inbox_.next(), std::max(packets_.next_arrival(), now + 1)));

@@ -53,11 +53,17 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   /// Unbound if nothing in the scene spawns a ray.
   sc_core::sc_port<TimedOut<SpawnBundle*>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> out_bundles;
 
+  /// The packet of a context that is held.
+  [[nodiscard]] const RayPacket* packet(int context) const {
+    return contexts_[static_cast<std::size_t>(context)].packet;
+  }
   [[nodiscard]] const PrivateCache& attribute_cache() const { return attributes_; }
+  [[nodiscard]] PrivateCache& attribute_cache() { return attributes_; }
   /// Null if the scene has no textures.
   [[nodiscard]] const PrivateCache* texture_cache() const {
     return textures_ ? &*textures_ : nullptr;
   }
+  [[nodiscard]] PrivateCache* texture_cache() { return textures_ ? &*textures_ : nullptr; }
   [[nodiscard]] std::string stuck_reason() const override;
 
   /// Has all its steps taken down; packets come `link_latency` after they are sent.
@@ -83,12 +89,10 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   void end_of_elaboration() override;
   Cycles accept_inputs(Cycles now);
   void accept_packet(RayPacket* packet, Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   // Never runs ahead: it changes what flow control counts.
   [[nodiscard]] static Cycles earliest_input() { return 0; }
-  // Its steps are few and seldom find all their lines.
-  static QuickStep step_if_hit(int /*context*/, Cycles /*now*/) { return {}; }
   void begin_phase(int number, Phase phase);
   void list_lines(Context& context);
   void list_addresses(const Context& context, std::vector<Address>& addresses) const;

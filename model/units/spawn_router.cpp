@@ -11,11 +11,11 @@ namespace sheaf {
 SpawnRouter::SpawnRouter(const sc_core::sc_module_name& name, PacketPool& packets,
                          ObjectPool<SpawnBundle>& bundles, ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_bundles("in_bundles"),
       out_packets("out_packets"),
       packets_(packets),
-      bundles_(bundles),
-      domain_(domain) {
+      bundles_(bundles) {
   inbox_.bind(domain, domain.add(*this));
 }
 
@@ -24,16 +24,7 @@ void SpawnRouter::end_of_elaboration() {
   out_packets->add_producer(inbox_);
 }
 
-Cycles SpawnRouter::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles SpawnRouter::act(Cycles now) {
-  domain_.happened(now);
   if (waiting_.empty()) {
     if (!in_bundles->has_arrived(now)) {
       stalls_.switch_to(StallCause::kIdle, now);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/object_pool.h"
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "sorting/spawn_bundle.h"
 #include "stats/counters.h"
@@ -21,7 +22,7 @@ SHEAF_STATS(SpawnRouterStats, SHEAF_SPAWN_ROUTER_COUNTERS);
 
 /// Takes the ray cache's place for the heuristic `none`: the rays that one packet spawned travel on
 /// as packets by kind, one packet a cycle.
-class SpawnRouter final : public sc_core::sc_module, public Agent {
+class SpawnRouter final : public sc_core::sc_module, public SteppingAgent {
  public:
   SpawnRouter(const sc_core::sc_module_name& name, PacketPool& packets,
               ObjectPool<SpawnBundle>& bundles, ClockDomain& domain);
@@ -29,7 +30,6 @@ class SpawnRouter final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedIn<SpawnBundle*>> in_bundles;
   sc_core::sc_port<TimedOut<RayPacket*>> out_packets;
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   /// Packets carry their cause; they reach a traversal unit `way` later at the earliest.
@@ -41,11 +41,10 @@ class SpawnRouter final : public sc_core::sc_module, public Agent {
 
  private:
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
 
   PacketPool& packets_;
   ObjectPool<SpawnBundle>& bundles_;
-  ClockDomain& domain_;
   Inbox inbox_;
   std::vector<RayPacket*> waiting_;  ///< in reverse order
   SpawnRouterStats stats_;

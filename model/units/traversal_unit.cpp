@@ -70,8 +70,7 @@ Cycles TraversalUnit::accept_inputs(Cycles now) {
 // Packets come only for a free context; lines and answers only for who has asked for them.
 Cycles TraversalUnit::earliest_input() {
   const Cycles packet = has_free_context() ? packets_ahead_.earliest() : kNever;
-  return std::min({packet, earliest_answer(awaiting(), answers_ahead_),
-                   earliest_answer(parked(), lines_ahead_)});
+  return or_answer(or_answer(packet, awaiting(), answers_ahead_), parked(), lines_ahead_);
 }
 
 void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
@@ -93,47 +92,43 @@ void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
   schedule(number, now);
 }
 
-void TraversalUnit::ready(int number, Cycles now) {
+bool TraversalUnit::ready(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   switch (context.phase) {
-    case Phase::kSetup:
-    case Phase::kStep:
-      enqueue(number);
-      return;
-    case Phase::kSetupIssued:
-      begin_step(number, now);
-      return;
     case Phase::kStepIssued:
       if (context.step->num_tests != 0) {
         context.phase = Phase::kJob;
         send_job(number, now);
-        return;
+        return false;
       }
-      ++context.step;
-      begin_step(number, now);
-      return;
-    case Phase::kJob:
-      send_job(number, now);
-      return;
+      [[fallthrough]];
     case Phase::kAnswered:
       ++context.step;
-      begin_step(number, now);
-      return;
+      [[fallthrough]];
+    case Phase::kSetupIssued:
+      return begin_step(number, now);
+    case Phase::kSetup:
+    case Phase::kStep:
+      return true;
+    case Phase::kJob:
+      send_job(number, now);
+      return false;
     case Phase::kDone:
       send_packet(number, now);
-      return;
+      return false;
   }
+  return false;
 }
 
-void TraversalUnit::begin_step(int number, Cycles now) {
+bool TraversalUnit::begin_step(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   if (context.step != context.end) {
     context.phase = Phase::kStep;
-    enqueue(number);
-  } else {
-    context.phase = Phase::kDone;
-    send_packet(number, now);
+    return true;
   }
+  context.phase = Phase::kDone;
+  send_packet(number, now);
+  return false;
 }
 
 void TraversalUnit::issue(int number, Cycles now) {
@@ -150,11 +145,9 @@ void TraversalUnit::issue(int number, Cycles now) {
     occupy(number, slots_per_step_, 0, 0, now);
     return;
   }
-  const Address node = scene_.memory.node(context.step->node);
   if (recorder_ != nullptr && !fetcher_.has_begun(number)) record_step(number, now);
-  const auto line = [&](std::uint32_t /*i*/) { return cache_.line_of(node); };
-  const auto outcome = fetcher_.fetch(number, 1, DataKind::kNode, line, now);
-  if (outcome.complete) {
+  const std::uint64_t line = cache_.line_of(scene_.memory.node(context.step->node));
+  if (fetcher_.fetch_one(number, line, DataKind::kNode, now)) {
     context.phase = Phase::kStepIssued;
     const std::uint32_t slots = step_slots(scene_.scheme, *context.step, slots_per_step_);
     occupy(number, slots, cache_.hit_latency(), 0, now);
@@ -164,26 +157,13 @@ void TraversalUnit::issue(int number, Cycles now) {
   }
 }
 
-TraversalUnit::QuickStep TraversalUnit::step_if_hit(int number, Cycles now) {
-  Context& context = contexts_[static_cast<std::size_t>(number)];
-  if (context.phase != Phase::kStepIssued || context.step->num_tests != 0) return {};
-  const TraceStep* const next = context.step + 1;
-  if (next == context.end) return {};
-  if (!cache_.read_if_hit(cache_.line_of(scene_.memory.node(next->node)), DataKind::kNode)) {
-    return {};
-  }
-  context.step = next;
-  if (recorder_ != nullptr) record_step(number, now);
-  const std::uint32_t slots = step_slots(scene_.scheme, *next, slots_per_step_);
-  return {true, slots * spec_.initiation_interval, cache_.hit_latency() + spec_.latency};
-}
-
 void TraversalUnit::send_job(int number, Cycles now) {
   const TraceStep& step = *contexts_[static_cast<std::size_t>(number)].step;
   const LeafJob job{step.node, step.num_tests, number_, static_cast<std::uint16_t>(number)};
   switch (jobs_.write(job, now, is_certain(now), inbox_)) {
     case Sent::kYes:
       unblock(number);
+      look_again();
       await(number, now + times_.leaf_fixed + step.num_tests * times_.leaf_test);
       if (recorder_ != nullptr) recorder_->set_out(number, now);
       return;
@@ -201,6 +181,7 @@ void TraversalUnit::send_packet(int number, Cycles now) {
   switch (packets_.write(packet, now, is_certain(now), inbox_)) {
     case Sent::kYes:
       unblock(number);
+      look_again();
       free_context(number);
       out_free->write_ahead({number_}, now, number_);
       if (recorder_ != nullptr) {

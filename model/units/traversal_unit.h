@@ -62,6 +62,11 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   [[nodiscard]] const TraceCounts& primary_counts() const { return primary_counts_; }
   [[nodiscard]] const TraceCounts& secondary_counts() const { return secondary_counts_; }
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
+  [[nodiscard]] PrivateCache& cache() { return cache_; }
+  /// The packet of a context that is held.
+  [[nodiscard]] const RayPacket* packet(int context) const {
+    return contexts_[static_cast<std::size_t>(context)].packet;
+  }
   [[nodiscard]] std::string stuck_reason() const override;
 
   /// Has all its steps taken down.
@@ -90,12 +95,11 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   void start_of_simulation() override;
   Cycles accept_inputs(Cycles now);
   void accept_packet(RayPacket* packet, Cycles now);
-  void ready(int context, Cycles now);
+  bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
-  QuickStep step_if_hit(int context, Cycles now);
   void record_step(int context, Cycles now);
-  void begin_step(int context, Cycles now);
+  bool begin_step(int context, Cycles now);
   void send_job(int context, Cycles now);
   void send_packet(int context, Cycles now);
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import floor
 
-from recipes.glb import GlbWriter
+from recipes.glb import GlbWriter, MeshHandle
 from recipes.mesh import (
     Mesh,
     box,
@@ -226,6 +226,21 @@ def walls(scene: GlbWriter) -> None:
     scene.place(scene.mesh("box", parts), "box")
 
 
+def place_four(scene: GlbWriter, dragon: MeshHandle) -> None:
+    """Two on the blocks, two on the floor."""
+    scene.place(dragon, "dragon 1", (-2.3, 2.1, -2.6), quat_about(Y_AXIS, 0.93), (0.95, 0.95, 0.95))
+    scene.place(dragon, "dragon 2", (2.5, 1.4, -2.6), quat_about(Y_AXIS, 0.6), (0.95, 0.95, 0.95))
+    scene.place(dragon, "dragon 3", (-2.2, 0.0, 2.0), quat_about(Y_AXIS, 0.88), (1.0, 1.0, 1.0))
+    # The mirrored one: a negative scale turns the winding over.
+    scene.place(dragon, "dragon 4", (2.2, 0.0, 1.8), quat_about(Y_AXIS, 0.1), (-1.0, 1.0, 1.0))
+
+
+def look(scene: GlbWriter) -> None:
+    """Camera and light."""
+    scene.camera((0.0, 4.2, 14.4), (0.0, 2.85, 0.0), 0.6)
+    scene.point_light((0.0, 6.1, 4.2), (1.0, 0.95, 0.85), 190.0)
+
+
 def build() -> GlbWriter:
     scene = GlbWriter("dragon")
     walls(scene)
@@ -233,12 +248,6 @@ def build() -> GlbWriter:
     horn = scene.material("horn", (0.9, 0.88, 0.8))
     skin_ = scene.material("wing", (0.7, 0.2, 0.15))
     meshes = dragon_parts()
-    dragon = scene.mesh("dragon", list(zip(meshes, (hide, horn, skin_), strict=True)))
-    scene.place(dragon, "dragon 1", (-2.3, 2.1, -2.6), quat_about(Y_AXIS, 0.93), (0.95, 0.95, 0.95))
-    scene.place(dragon, "dragon 2", (2.5, 1.4, -2.6), quat_about(Y_AXIS, 0.6), (0.95, 0.95, 0.95))
-    scene.place(dragon, "dragon 3", (-2.2, 0.0, 2.0), quat_about(Y_AXIS, 0.88), (1.0, 1.0, 1.0))
-    # The mirrored one: a negative scale turns the winding over.
-    scene.place(dragon, "dragon 4", (2.2, 0.0, 1.8), quat_about(Y_AXIS, 0.1), (-1.0, 1.0, 1.0))
-    scene.camera((0.0, 4.2, 14.4), (0.0, 2.85, 0.0), 0.6)
-    scene.point_light((0.0, 6.1, 4.2), (1.0, 0.95, 0.85), 190.0)
+    place_four(scene, scene.mesh("dragon", list(zip(meshes, (hide, horn, skin_), strict=True))))
+    look(scene)
     return scene

@@ -4,18 +4,15 @@
 // How fast frames are simulated beside how fast Embree 3 merely traces the same rays one by one.
 // Every measurement is a child process of its own, the kinds take turns, and the median counts.
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <bit>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <string>
 #include <systemc>
 #include <vector>
 
+#include "bench/medians.h"
 #include "config/read_config.h"
 #include "scene/camera.h"
 #include "scene/load_gltf.h"
@@ -26,33 +23,6 @@
 
 namespace sheaf::bench {
 namespace {
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// The seconds that `measure` returns in a child process: SystemC keeps one simulation a process.
-double in_child(const std::function<double()>& measure) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no child process");
-  if (child == 0) {
-    const double seconds = measure();
-    const bool written = write(ends[1], &seconds, sizeof seconds) == sizeof seconds;
-    _exit(written ? 0 : 1);
-  }
-  close(ends[1]);
-  double seconds = 0.0;
-  const bool got = read(ends[0], &seconds, sizeof seconds) == sizeof seconds;
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!got || status != 0) throw std::runtime_error("a measurement failed");
-  return seconds;
-}
 
 /// The rays of a frame: primary rays block by block of 4 x 4 pixels, each block followed by what it
 /// spawns.
@@ -129,11 +99,6 @@ double timed_seconds(const Config& config, const BuildPlan& plan, const Prepared
   return cpu_seconds() - start;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void measure_scene(const std::string& path, const Config& config, int repeats) {
   LoadedScene loaded = load_scene(path);
   const BuildPlan plan = plan_machine(config, loaded.scene.needs);
@@ -172,10 +137,10 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   settings.insert(settings.begin(), "render.recursion_level=3");
   const Config config = resolve_config({}, settings);
-  fmt::print("Million rays a second of thread CPU time, median of {}.\n\n", repeats);
   fmt::print(
       "| scene | million rays | Embree | functional | timed | timed / Embree (speed) "
       "| timed / functional (time) |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  std::fflush(stdout);
   for (const std::string& scene : scenes) measure_scene(scene, config, repeats);
   return 0;
 }
@@ -189,6 +154,8 @@ int main(int argc, char** argv) {
 }
 
 int sc_main(int argc, char** argv) {
-  sc_core::sc_report_handler::set_actions("/IEEE_Std_1666/deprecated", sc_core::SC_DO_NOTHING);
+  for (const char* message : {"/IEEE_Std_1666/deprecated", "/OSCI/SystemC"}) {
+    sc_core::sc_report_handler::set_actions(message, sc_core::SC_DO_NOTHING);
+  }
   return sheaf::bench::run(argc, argv);
 }

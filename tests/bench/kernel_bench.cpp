@@ -116,12 +116,19 @@ class Medians : public benchmark::ConsoleReporter {
       if (rate != run.counters.end()) rates_[run.run_name.function_name] = rate->second;
     }
   }
+  /// A table of speeds as parts of Embree's.
   void print_ratios() const {
-    for (const auto& [name, rate] : rates_) {
-      const auto embree = rates_.find(name.substr(0, name.rfind('/')) + "/embree");
-      if (embree == rates_.end() || embree->second == rate) continue;
-      fmt::print("{:30} {:.3g} M rays/s, {:.3f} of Embree's\n", name, rate * 1e-6,
-                 rate / embree->second);
+    fmt::print("| scene | primary, masked | single | Embree robust | incoherent, masked | single ");
+    fmt::print("| Embree robust |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+    for (const char* scene : test::kCommittedScenes) {
+      fmt::print("| {} |", scene);
+      for (const char* rays : {"primary", "incoherent"}) {
+        for (const char* kernel : {"masked", "single", "embree_robust"}) {
+          const std::string name = fmt::format("{}/{}/", scene, rays);
+          fmt::print(" {:.2f} |", rates_.at(name + kernel) / rates_.at(name + "embree"));
+        }
+      }
+      fmt::print("\n");
     }
   }
 
@@ -130,7 +137,10 @@ class Medians : public benchmark::ConsoleReporter {
 };
 
 void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
-  benchmark::RegisterBenchmark(name.c_str(), run)->Repetitions(5)->ReportAggregatesOnly();
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->Repetitions(5)
+      ->MinTime(0.2)
+      ->ReportAggregatesOnly();
 }
 
 int run(int argc, char** argv) {

@@ -15,9 +15,11 @@
 #include "config/read_config.h"
 #include "report/stats_json.h"
 #include "scene/load_gltf.h"
+#include "system/estimate_report.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
 #include "system/report_parts.h"
+#include "system/sampled_frame.h"
 
 namespace sheaf::test {
 namespace {
@@ -47,6 +49,16 @@ void keep_complaints(const sc_core::sc_report& report, const sc_core::sc_actions
   }
 }
 
+bool simulate_analytic(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
+                       Frame& frame, StatsTree& stats) {
+  AnalyticModel model(config, scene);
+  FunctionalPipeline pipeline(config, plan, scene, frame, {}, &model);
+  const bool complete = model.run(pipeline, {});
+  pipeline.report(stats);
+  report_analytic(model, config, stats);
+  return complete;
+}
+
 template <typename Simulator>
 bool simulate(const Config& config, const BuildPlan& plan, const PreparedScene& scene, Frame& frame,
               bool in_step, StatsTree& stats) {
@@ -66,10 +78,18 @@ Outcome run_here(const Config& config, const PreparedScene& scene, bool in_step)
     const BuildPlan plan = plan_machine(config, scene.scene.needs);
     Frame frame(config);
     StatsTree stats;
-    outcome.complete =
-        config.run.fidelity == Fidelity::kFunctional
-            ? simulate<FunctionalPipeline>(config, plan, scene, frame, in_step, stats)
-            : simulate<Machine>(config, plan, scene, frame, in_step, stats);
+    const auto simulate_as = [&]<typename Simulator>() {
+      return simulate<Simulator>(config, plan, scene, frame, in_step, stats);
+    };
+    if (config.run.fidelity == Fidelity::kFunctional) {
+      outcome.complete = simulate_as.template operator()<FunctionalPipeline>();
+    } else if (config.run.fidelity == Fidelity::kAnalytic) {
+      outcome.complete = simulate_analytic(config, plan, scene, frame, stats);
+    } else if (config.run.fidelity == Fidelity::kSampled) {
+      outcome.complete = simulate_as.template operator()<SampledFrame>();
+    } else {
+      outcome.complete = simulate_as.template operator()<Machine>();
+    }
     report_rays(frame.rays, stats);
     outcome.stats = nlohmann::json::parse(stats_json(stats));
     for (std::uint32_t i = 0; i < config.image.width * config.image.height; ++i) {

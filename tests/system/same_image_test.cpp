@@ -56,11 +56,26 @@ std::vector<Choices> choices() {
           each("link.depth", {"1", "8"}),
           each_unit("count", {"1", "4"}),
           each_unit("contexts", {"1", "8"}),
-          each("flow.control", {"tile", "credits"}),
+          each("flow.control", {"tile", "credits", "spill"}),
+          each("flow.spill_queue", {"1", "40"}),
+          each("node_cache.replacement", {"lru", "plru", "fifo", "random"}),
+          each("triangle_cache.sectors", {"1", "4"}),
+          each("attribute_cache.ports", {"1", "2"}),
+          each("triangle_cache.banks", {"1", "4"}),
+          each("film_cache.write_policy", {"back", "through"}),
+          each("film_cache.write_allocate", {"true", "false"}),
+          each("film_cache.write_buffer", {"0", "2"}),
+          each("l2.replacement", {"plru", "random"}),
+          each("l2.write_allocate", {"false", "true"}),
+          each("l2.write_policy", {"back", "through"}),
+          each("l2.mshr_targets", {"0", "1"}),
+          each("crossbar.request_width", {"32", "8"}),
+          each("crossbar.depth", {"0", "1"}),
+          each("crossbar.response_width", {"0", "8"}),
           each("flow.tile_size", {"8", "16", "64"}),
           each("packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}),
           each("traversal.scheme", {"single", "masked", "omni"}),
-          each("run.fidelity", {"timed", "functional"})};
+          each("run.fidelity", {"timed", "decoupled", "sampled", "analytic", "functional"})};
 }
 
 void expect_same(const Outcome& outcome, const Outcome& first, const Settings& settings) {

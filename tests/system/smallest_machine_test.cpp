@@ -61,6 +61,12 @@ TEST_P(SmallestMachine, FinishesWithTheSamePicture) {
       {"flow.control=credits", fewest_credits(scene, 16)},
       {"flow.control=credits", fewest_credits(scene, 16), "ray_cache.heuristic=none"},
       {"flow.control=credits", fewest_credits(scene, 1), "packet.size=1"},
+      {"flow.control=spill", "flow.spill_queue=1"},
+      {"flow.control=spill", "flow.spill_queue=1", "ray_cache.heuristic=none", "packet.size=1"},
+      {"flow.control=spill", "flow.spill_queue=1", "shader_cache.cells=1",
+       "film_cache.write_buffer=1", "l2.write_buffer=1", "l2.mshr_targets=1",
+       "film_cache.mshr_targets=1", "crossbar.request_width=1", "crossbar.response_width=1",
+       "crossbar.depth=1"},
       {"node_cache.mode=absent", "triangle_cache.mode=absent", "attribute_cache.mode=absent",
        "texture_cache.mode=absent", "film_cache.mode=absent", "l2.mode=absent"}};
   for (const Settings& machine : machines) {

@@ -129,6 +129,16 @@ TEST_F(ChannelTest, KeepsOrderWhileItsRingGrows) {
   EXPECT_EQ(next_read, 1000);
 }
 
+TEST_F(ChannelTest, LittlesLawHolds) {
+  // Held: one from 0 to 8, one from 3 to 12.
+  const auto channel = make({.capacity = 4, .latency = 4});
+  channel->nb_write(1, 0);
+  channel->nb_write(2, 3);
+  channel->read(8);
+  channel->read(12);
+  EXPECT_EQ(channel->occupancy_cycles(), 8U + 9U);
+}
+
 TEST_F(ChannelTest, OccupancyCountsWhatAProducerBehindInTimeWritesLater) {
   const auto channel = make({.capacity = 8, .latency = 4});
   channel->nb_write(1, 10);

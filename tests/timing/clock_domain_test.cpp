@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <utility>
+
 #include "timing/bench.h"
 
 namespace sheaf::test {
@@ -86,6 +89,72 @@ TEST_F(Bench, LetsAForeignProcessActInItsPlaceInTime) {
   actor.at(6, [&] { order.push_back(6); });
   sc_core::sc_start();
   EXPECT_EQ(order, (std::vector<int>{4, 50, 6}));
+}
+
+/// Observes the cycles it is given.
+struct Watcher : CycleObserver {
+  Watcher(std::set<Cycles> cycles, std::function<void(Cycles)> action)
+      : wanted(std::move(cycles)), act(std::move(action)) {}
+  Cycles next_observed(Cycles cycle) override {
+    const auto it = wanted.lower_bound(cycle);
+    return it == wanted.end() ? kNever : *it;
+  }
+  void observe(Cycles cycle) override { act(cycle); }
+  [[nodiscard]] bool wants_kernel_time() const override { return kernel_time; }
+
+  std::set<Cycles> wanted;
+  std::function<void(Cycles)> act;
+  bool kernel_time = false;
+};
+
+struct Observed : Bench {
+  Observed() {
+    for (const Cycles cycle : {4, 6, 9}) {
+      actor.at(cycle, [this, cycle] {
+        done = cycle;
+        horizons.push_back(domain.horizon());
+        domain.happened(cycle);
+      });
+    }
+  }
+  Actor actor{domain};
+  Cycles done = 0;
+  std::vector<Cycles> horizons;
+  std::vector<std::pair<Cycles, Cycles>> seen;  ///< cycle, done
+};
+
+TEST_F(Observed, CycleShowsWhatHappenedInItAndNothingLater) {
+  Watcher watcher({4, 5, 8}, [this](Cycles cycle) { seen.emplace_back(cycle, done); });
+  domain.observe(watcher);
+  sc_core::sc_start();
+  EXPECT_EQ(seen, (std::vector<std::pair<Cycles, Cycles>>{{4, 4}, {5, 4}, {8, 6}}));
+}
+
+TEST_F(Observed, CycleIsNotRunPast) {
+  Watcher watcher({4, 7}, [](Cycles /*cycle*/) {});
+  domain.observe(watcher);
+  sc_core::sc_start();
+  EXPECT_EQ(horizons, (std::vector<Cycles>{5, 8, kNever}));
+}
+
+TEST_F(Observed, RunEndsWithTheLastThingThatHappens) {
+  Watcher watcher({8, 9, 10, 20}, [this](Cycles cycle) { seen.emplace_back(cycle, done); });
+  domain.observe(watcher);
+  sc_core::sc_start();
+  EXPECT_EQ(seen, (std::vector<std::pair<Cycles, Cycles>>{{8, 6}, {9, 9}}));
+  EXPECT_TRUE(domain.ran_dry());
+}
+
+TEST_F(Observed, CycleIsTheKernelsTimeForWhoWantsIt) {
+  std::vector<sc_core::sc_time> times;
+  Watcher watcher({2, 4, 5, 8},
+                  [&](Cycles /*cycle*/) { times.push_back(sc_core::sc_time_stamp()); });
+  watcher.kernel_time = true;
+  domain.observe(watcher);
+  sc_core::sc_start();
+  std::vector<sc_core::sc_time> expected;
+  for (const double ns : {2, 4, 5, 8}) expected.emplace_back(ns, sc_core::SC_NS);
+  EXPECT_EQ(times, expected);
 }
 
 }  // namespace

@@ -1,83 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-#include "memory/l2_cache.h"
-
 #include <gtest/gtest.h>
-#include <tlm_utils/simple_target_socket.h>
 
-#include "timing/bench.h"
+#include "timing/l2_bench.h"
 
 namespace sheaf::test {
 namespace {
-
-constexpr Cycles kDramLatency = 50;
-
-/// Answers every request after a fixed time, however many there are.
-struct IdealDram : sc_core::sc_module {
-  tlm_utils::simple_target_socket<IdealDram> socket{"socket"};
-  std::vector<Cycles> reads;
-  std::vector<Cycles> writes;
-
-  explicit IdealDram(const sc_core::sc_module_name& name) : sc_module(name) {
-    socket.register_nb_transport_fw(this, &IdealDram::transport);
-  }
-  tlm::tlm_sync_enum transport(tlm::tlm_generic_payload& payload, tlm::tlm_phase& /*phase*/,
-                               sc_core::sc_time& delay) {
-    const auto now = (sc_core::sc_time_stamp() + delay).value() / one_nanosecond().value();
-    (payload.is_write() ? writes : reads).push_back(now);
-    delay += one_nanosecond() * static_cast<double>(kDramLatency);
-    return tlm::TLM_COMPLETED;
-  }
-};
-
-struct L2Test : testing::Test {
-  static L2Spec spec() {
-    return {.mode = CacheMode::kNormal,
-            .capacity = 1024,
-            .line = 64,
-            .ways = 2,
-            .banks = 2,
-            .mshrs = 2,
-            .hit_latency = 12};
-  }
-
-  ClockDomain domain{"domain", one_nanosecond()};
-  Actor requester{domain};
-  TimedChannel<LineRequest> requests{
-      "requests", {.capacity = TimedChannel<LineRequest>::kUnbounded, .latency = 8, .interval = 0}};
-  TimedChannel<LineResponse> responses{
-      "responses",
-      {.capacity = TimedChannel<LineResponse>::kUnbounded, .latency = 8, .interval = 1}};
-  IdealDram dram{"dram"};
-  std::unique_ptr<L2Cache> l2;
-  std::vector<std::pair<Cycles, Address>> arrived;
-
-  void build(const L2Spec& l2_spec) {
-    l2 = std::make_unique<L2Cache>("l2", l2_spec, domain);
-    l2->in_requests(requests);
-    l2->out_responses(responses);
-    l2->to_dram.bind(dram.socket);
-    responses.set_consumer(requester.inbox());
-    requester.always([this](Cycles now) {
-      while (responses.has_arrived(now)) {
-        arrived.emplace_back(now, responses.read(now).address);
-      }
-      if (responses.next_arrival() != kNever) requester.inbox().nudge(responses.next_arrival());
-    });
-  }
-  void read_at(Cycles time, std::uint64_t line) {
-    requester.at(time, [=, this] {
-      requests.nb_write({line * 64, 64, 0, DataKind::kNode, false}, time);
-    });
-  }
-  void write_at(Cycles time, std::uint64_t line) {
-    requester.at(time, [=, this] {
-      requests.nb_write({line * 64, 64, 0, DataKind::kPixel, true}, time);
-    });
-  }
-  /// Arrival of the response to the n-th request.
-  Cycles arrival(std::size_t n) { return arrived.at(n).first; }
-};
 
 TEST_F(L2Test, MissTakesLinkPlusTagCheckPlusDramPlusLink) {
   build(spec());

@@ -19,15 +19,15 @@ WIDTH, HEIGHT = 460, 300
 _LABELS = 160  # of the width, for the names of measures
 _SCALE_DOWN = {"bits": (8 * 1024, "KiB"), "bytes": (1024, "KiB")}
 # Colours that people with colour-blindness tell apart (Okabe and Ito 2008).
-_COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999"]
 _SMALLEST_SHARE = 0.001  # of variance, below which an axis is not drawn
 _WIDE = 20  # ratio from which a cost is drawn on a logarithmic scale
 _SHORT = alt.Axis(  # 2.5M and 0.95, where one format would give 2500000 or 950m
     labelExpr="format(datum.value, abs(datum.value) >= 1000 ? '~s' : '.4~g')"
 )
 
-_PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes")
-_ENERGY_COLUMNS = ("energy.total", "system.energy.total", "system.energy", "derived.energy")
+_ENERGY = "energy.known"
+_PARETO_COSTS = ("derived.sram_bits", "derived.dram_bytes", _ENERGY)
 _DEFAULT_MEASURES = (
     "system.cycles",
     "derived.dram_bytes",
@@ -104,8 +104,8 @@ def _axis_title(table: Table, measure: str) -> str:
 
 def _hues(axis: Axis) -> list[str]:
     """Colours of an axis: distinct ones, or for more than eight places a ramp."""
-    if len(axis.labels) <= len(_COLOURS):
-        return _COLOURS[: len(axis.labels)]
+    if len(axis.labels) <= len(COLOURS):
+        return COLOURS[: len(axis.labels)]
     return []
 
 
@@ -116,7 +116,7 @@ def _below() -> alt.Legend:
 
 def _colour(axis: Axis | None, present: set[str]) -> Any:
     if axis is None:
-        return alt.value(_COLOURS[0])
+        return alt.value(COLOURS[0])
     domain = [label for label in axis.labels if label in present]
     hues = _hues(axis)
     scale = (
@@ -196,7 +196,7 @@ def pareto_plot(table: Table, cost: str, against: str) -> Plot:
     )
     y = alt.Y("y:Q", title=_axis_title(table, against), scale=alt.Scale(zero=False), axis=_SHORT)
     legend = _below() if data["scene"].nunique() > 1 else None
-    colour = alt.Color("scene:N", scale=alt.Scale(range=_COLOURS), legend=legend)
+    colour = alt.Color("scene:N", scale=alt.Scale(range=COLOURS), legend=legend)
     tooltip = ["point:N", "place:N", "scene:N", "x:Q", "y:Q"]
     base = alt.Chart(data).encode(x=x, y=y, color=colour, tooltip=tooltip)
     front = base.transform_filter("datum.front")
@@ -216,9 +216,10 @@ def pareto_plots(table: Table) -> tuple[list[Plot], list[str]]:
     counters = set(table.counters())
     if against not in counters:
         return [], [f"No Pareto fronts: the points have no {against}."]
-    energy = next((c for c in _ENERGY_COLUMNS if c in counters), None)
-    costs = [c for c in (*_PARETO_COSTS, energy) if c is not None and c in counters]
-    notes = [] if energy else ["Energy: the simulator that ran this sweep does not report it."]
+    costs = [cost for cost in _PARETO_COSTS if cost in counters]
+    notes: list[str] = []
+    if _ENERGY not in costs:
+        notes.append("Energy: the simulator that ran this sweep does not report it.")
     plots: list[Plot] = []
     for cost in costs:
         if table.frame[cost].nunique() > 1:
@@ -240,7 +241,7 @@ def sensitivity_plot(table: Table, measures: list[str]) -> Plot | None:
     if not rows:
         return None
     names = [axis.name for axis in table.axes] + ["interactions"]
-    colours = [*_COLOURS[: len(names) - 1], "#dddddd"]
+    colours = [*COLOURS[: len(names) - 1], "#dddddd"]
     chart = (
         alt.Chart(pd.DataFrame(rows))
         .mark_bar()

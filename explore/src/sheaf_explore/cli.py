@@ -173,6 +173,53 @@ def trace(
         _say(f"written: {path}")
 
 
+@app.command(epilog=_EXITS)
+def paper(
+    out: Annotated[Path, typer.Option("--out", help="Folder of the runs and the report")] = Path(
+        "result/paper"
+    ),
+    scenes: Annotated[
+        str, typer.Option("--scenes", help="Some of dragon,fairy,newtree,oldtree,sponza")
+    ] = "",
+    size: Annotated[str, typer.Option("--size", help="Pixels of the picture")] = "640x480",
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Small pictures: for a look, not for numbers")
+    ] = False,
+    sponza: Annotated[
+        Path | None, typer.Option("--sponza", help="The real Sponza (.glb), to compare it too")
+    ] = None,
+    dragon: Annotated[
+        Path | None,
+        typer.Option("--dragon", help="A scene with the real dragon, to compare it too"),
+    ] = None,
+    docs: Annotated[
+        Path | None, typer.Option("--docs", help="Write paper.md with its images here, too")
+    ] = None,
+    sheaf: Sheaf = None,
+    workers: Workers = _PROCESSORS,
+    cache: Cache = None,
+) -> None:
+    """Make the experiments of "Deep Coherent Ray Tracing" again, beside what the paper prints."""
+    from sheaf_explore import sweep as work
+    from sheaf_explore.cluster import ClusterChoice
+    from sheaf_explore.paper import command
+    from sheaf_explore.paper.plan import Plan
+    from sheaf_explore.paper.runs import Workshop
+    from sheaf_explore.simulator import find_simulator
+    from sheaf_explore.store import Store
+
+    width, height = command.QUICK if quick else command.parse_size(size)
+    plan = Plan(command.choose_scenes(scenes, sponza, dragon), width, height)
+    shop = Workshop(
+        find_simulator(sheaf),
+        Store(out / "runs"),
+        cache or work.cache_folder(),
+        ClusterChoice(workers),
+        _say,
+    )
+    raise typer.Exit(command.make_paper(plan, shop, out, docs))
+
+
 def main() -> None:
     """Runs the command; what the user can mend ends it with one line."""
     try:

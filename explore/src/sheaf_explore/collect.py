@@ -92,7 +92,7 @@ def _row(store: Store, entry: dict[str, Any], sweep: dict[str, Any]) -> dict[str
     row |= {name: (_plain(label), "") for name, label in entry["labels"].items()}
     settings = sweep["defaults"] | entry["settings"]
     row |= {key: (_plain(settings[key]), "") for key in sweep["meanings"]}
-    row |= derive(values, settings)
+    row |= derive(values)
     for name, field in counters.items():
         column = f"stats.{name}" if name in row else name
         row[column] = (field["value"], field["unit"])

@@ -99,10 +99,7 @@ class _Search:
     def _values(self, entry: Entry) -> list[float]:
         stats = self._store.stats(entry.id)
         counters = {name: field["value"] for name, field in stats.items()}
-        settings = self._simulator.parameters.defaults | entry.settings
-        columns = counters | {
-            name: value for name, (value, _) in derive(counters, settings).items()
-        }
+        columns = counters | {name: value for name, (value, _) in derive(counters).items()}
         values = []
         for sign, names in ((1.0, self._wanted.minimize), (-1.0, self._wanted.maximize)):
             for name in names:

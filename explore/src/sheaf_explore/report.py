@@ -22,10 +22,30 @@ _TIMELINES = ("timeline*", "*.perfetto-trace", "*.pftrace")
 _MAX_ROWS = 5000  # of the table of points; the page stays quick, and all are in results.csv
 
 
-def _spec_of(plot: Plot) -> str:
+def spec_of(plot: Plot) -> str:
     """The chart as JSON that can stand in a script element."""
     chart: dict[str, Any] = plot.chart.to_dict()
     return json.dumps(chart, separators=(",", ":"), sort_keys=True).replace("<", "\\u003c")
+
+
+def chart_script() -> str:
+    """JavaScript that draws charts, for pages that have no network."""
+    return vl_convert.javascript_bundle(_SNIPPET)
+
+
+def write_svg(folder: Path, plots: list[Plot]) -> None:
+    """Writes each plot as SVG."""
+    for plot in plots:
+        picture = vl_convert.vegalite_to_svg(plot.chart.to_dict())
+        write_whole(folder / f"{plot.name}.svg", picture)
+
+
+def write_pictures(folder: Path, plots: list[Plot]) -> None:
+    """Writes each plot as PNG and SVG."""
+    for plot in plots:
+        png = vl_convert.vegalite_to_png(plot.chart.to_dict(), scale=_PNG_SCALE)
+        write_whole(folder / f"{plot.name}.png", png)
+    write_svg(folder, plots)
 
 
 def _number(value: Any) -> str:
@@ -70,7 +90,7 @@ def _page(store: Store, table: Table, plots: list[Plot], notes: list[str]) -> st
     modes = table.frame["mode"].value_counts().to_dict()
     return environment.from_string(template).render(
         table=table,
-        plots=[(plot, _spec_of(plot)) for plot in interactive],
+        plots=[(plot, spec_of(plot)) for plot in interactive],
         notes=notes,
         measures=measures,
         units=table.units,
@@ -79,7 +99,7 @@ def _page(store: Store, table: Table, plots: list[Plot], notes: list[str]) -> st
         live=int(modes.get("live", 0)),
         missing=table.total - len(table.frame) - len(table.failures),
         scenes=sorted({Path(scene).name for scene in table.frame["scene"]}),
-        script=vl_convert.javascript_bundle(_SNIPPET),
+        script=chart_script(),
     )
 
 
@@ -89,11 +109,7 @@ def write_report(store: Store) -> Path:
     table.write(store.folder)
     plots, notes = all_plots(table)
     folder = store.folder / "report"
-    for plot in plots:
-        chart = plot.chart.to_dict()
-        png = vl_convert.vegalite_to_png(chart, scale=_PNG_SCALE)
-        write_whole(folder / f"{plot.name}.png", png)
-        write_whole(folder / f"{plot.name}.svg", vl_convert.vegalite_to_svg(chart))
+    write_pictures(folder, plots)
     for old in [*folder.glob("*.png"), *folder.glob("*.svg")]:
         if old.stem not in {plot.name for plot in plots}:
             old.unlink()

@@ -178,6 +178,12 @@ class Store:
                     records.append(record)
         return records
 
+    def processor_seconds(self) -> float:
+        """What the recorded sweep's finished points took, each by its last simulation."""
+        took = {record["id"]: record["cpu_seconds"] for record in self.journal()}
+        points = {entry["id"] for entry in self.sweep()["points"]}
+        return float(sum(took.get(point, 0.0) for point in points))
+
     def sweep(self) -> dict[str, Any]:
         """The recorded sweep. Raises ExploreError if there is none."""
         path = self.folder / "sweep.json"

@@ -39,6 +39,7 @@ class BankTiming {
   [[nodiscard]] std::uint32_t num_groups() const {
     return static_cast<std::uint32_t>(groups_.size());
   }
+  [[nodiscard]] std::uint32_t rank_of(std::uint32_t group) const { return groups_[group].rank; }
   [[nodiscard]] std::uint32_t num_open(std::uint32_t rank) const { return ranks_[rank].num_open; }
 
   /// What holds for all banks of a group (numbered through the channel): the group's own limits and

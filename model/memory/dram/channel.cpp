@@ -26,18 +26,54 @@ DramChannel::DramChannel(const DramDevice& device)
     const Cycles share = Cycles{device.timing.tREFI} * (rank + 1) / refresh_at_.size();
     refresh_at_[rank] = device.refresh ? share : kNever;
   }
+  scheduler_.set_refreshes(refresh_at_);
 }
 
 void DramChannel::advance(Cycles until, std::vector<DramDone>& done) {
   while (!(until == kNever && is_idle())) {
     const Cycles acceptance = next_acceptance();
+    skip_idle_refreshes(std::min(until, acceptance));
     if (std::min(choose().at, acceptance) >= until) return;
     step(done);
   }
 }
 
 void DramChannel::relieve(std::size_t waiting, std::vector<DramDone>& done) {
-  while (input_.size() > waiting) step(done);
+  while (input_.size() > waiting) {
+    skip_idle_refreshes(next_acceptance());
+    step(done);
+  }
+}
+
+// Refreshes are all that happens between requests that are far apart, a thousand a millisecond: too
+// many to go through one by one beside a core of 1 MHz. Does at once all but the last few before
+// `until`, as they would have been done. Not while someone watches every command.
+void DramChannel::skip_idle_refreshes(Cycles until) {
+  const Cycles period = device_.timing.tREFI;
+  const std::size_t ranks = refresh_at_.size();
+  if (!device_.refresh || watcher_ || num_queued() != 0 || until == kNever) return;
+  if (device_.timing.tRFC > period || period < 2 * ranks) return;  // else they hinder each other
+  for (std::uint32_t rank = 0; rank < ranks; ++rank) {
+    const Cycles due = refresh_at_[rank];
+    if (until < due + 3 * period || due < row_bus_at_ || banks_.num_open(rank) != 0 ||
+        due < banks_.earliest_refresh(rank)) {
+      return;
+    }
+  }
+  Cycles last = 0;
+  for (std::uint32_t rank = 0; rank < ranks; ++rank) {
+    const Cycles count = (until - refresh_at_[rank]) / period - 1;
+    refresh_at_[rank] += count * period;
+    banks_.refresh(rank, refresh_at_[rank] - period);
+    last = std::max(last, refresh_at_[rank] - period);
+    stats_.refresh_cycles += count * device_.timing.tRFC;
+    stats_.num_refreshes += count;
+  }
+  scheduler_.touch_all();
+  choice_valid_ = false;
+  now_ = last;
+  row_bus_at_ = last + 1;
+  if (!device_.separate_row_bus) column_bus_at_ = last + 1;
 }
 
 // The next command or acceptance.
@@ -53,7 +89,8 @@ void DramChannel::step(std::vector<DramDone>& done) {
 }
 
 Cycles DramChannel::next_event() {
-  if (is_idle()) return kNever;
+  // Refreshes alone wake no one: advance() catches up on them.
+  if (num_queued() == 0) return next_acceptance();
   return std::min(choose().at, next_acceptance());
 }
 
@@ -83,7 +120,7 @@ void DramChannel::accept(Cycles now, std::vector<DramDone>& done) {
   ++(request.write ? stats_.num_writes : stats_.num_reads);
   (request.write ? writes_ : reads_).push(request, now, num_accepted_++);
   scheduler_.touch(request.bank);
-  choice_valid_ = false;
+  choice_valid_ = choice_valid_ && scheduler_.remains_best(choice_, request);
   stats_.max_queued = std::max<std::uint64_t>(stats_.max_queued, num_queued());
 }
 
@@ -95,8 +132,7 @@ void DramChannel::count_occupancy(Cycles now) {
 const DramChannel::Choice& DramChannel::choose() {
   if (!choice_valid_) {
     // A change of direction can make a command due that could have been issued long ago.
-    choice_ =
-        scheduler_.choose(std::max(row_bus_at_, now_), std::max(column_bus_at_, now_), refresh_at_);
+    choice_ = scheduler_.choose(buses());
     consider_refreshes(choice_);
     choice_valid_ = true;
   }
@@ -165,6 +201,7 @@ void DramChannel::issue(const Choice& choice, std::vector<DramDone>& done) {
       scheduler_.touch_all();
       banks_.refresh(choice.bank, now_);
       refresh_at_[choice.bank] += device_.timing.tREFI;
+      scheduler_.set_refreshes(refresh_at_);
       stats_.refresh_cycles += device_.timing.tRFC;
       ++stats_.num_refreshes;
   }

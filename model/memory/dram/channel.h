@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <vector>
@@ -48,7 +49,8 @@ class DramChannel {
   /// Goes on until at most so many requests wait to be taken.
   void relieve(std::size_t waiting, std::vector<DramDone>& done);
 
-  /// No command can be issued and no request taken before this cycle; kNever: nothing to do.
+  /// No request can be taken and no command for one be issued before this cycle; kNever: nothing to
+  /// do but refreshes.
   [[nodiscard]] Cycles next_event();
 
   [[nodiscard]] std::size_t num_waiting() const { return input_.size(); }
@@ -65,12 +67,16 @@ class DramChannel {
   [[nodiscard]] const Choice& choose();
   void consider_refreshes(Choice& best) const;
   void step(std::vector<DramDone>& done);
+  void skip_idle_refreshes(Cycles until);
   [[nodiscard]] Cycles next_acceptance() const;
   void accept(Cycles now, std::vector<DramDone>& done);
   void issue(const Choice& choice, std::vector<DramDone>& done);
   void issue_column(const Choice& choice, std::vector<DramDone>& done);
   void count_outcome(BankTiming::Bank& bank);
   void count_occupancy(Cycles now);
+  [[nodiscard]] DramScheduler::Buses buses() const {
+    return {std::max(row_bus_at_, now_), std::max(column_bus_at_, now_)};
+  }
   [[nodiscard]] BankLists& queue() { return scheduler_.writing() ? writes_ : reads_; }
   void report(const Choice& choice, DramCommand command);
 

@@ -13,84 +13,120 @@ DramScheduler::DramScheduler(const DramDevice& device, const BankTiming& banks,
       banks_(banks),
       reads_(reads),
       writes_(writes),
-      candidates_(banks.num_banks()),
-      overtaken_(banks.num_banks()) {
-  for (std::vector<Cycles>& limits : limits_) limits.resize(banks.num_groups());
-}
+      num_banks_(banks.num_banks()),
+      num_groups_(banks.num_groups()),
+      overtaken_(banks.num_banks()),
+      all_banks_(~std::uint64_t{0} >> (kMostBanks - num_banks_)) {}
 
 void DramScheduler::choose_direction() {
   draining_ = writes_.size() >= (draining_ ? device_.write_low + 1 : device_.write_high);
   const bool writing = writes_.size() != 0 && (draining_ || reads_.size() == 0);
-  if (writing != writing_) touch_all();
+  if (writing == writing_) return;
+  touch_all();
   writing_ = writing;
 }
 
 void DramScheduler::renew(std::uint32_t index) {
   const BankTiming::Bank& bank = banks_.bank(index);
   const BankLists& requests = queue();
-  Candidate& candidate = candidates_[index];
   BankLists::Index entry = requests.oldest(index);
-  candidate.rank = static_cast<std::uint8_t>(bank.rank);
-  candidate.group = static_cast<std::uint8_t>(bank.group);
-  candidate.kind = kColumn;
-  candidate.ready = writing_ ? bank.write_at : bank.read_at;
+  if (entry == BankLists::kNone) return;
+  Kind kind = kColumn;
+  Cycles ready = writing_ ? bank.write_at : bank.read_at;
   if (!bank.open) {
-    candidate.kind = kActivate;
-    candidate.ready = bank.activate_at;
+    kind = kActivate;
+    ready = bank.activate_at;
   } else if (requests[entry].request.row != bank.row) {
     const BankLists::Index hit = requests.find_row(index, bank.row);
     const bool may_overtake = device_.row_hit_cap == 0 || overtaken_[index] < device_.row_hit_cap;
     if (hit != BankLists::kNone && (may_overtake || requests[hit].started)) {
       entry = hit;
     } else {
-      candidate.kind = kPrecharge;
-      candidate.ready = bank.precharge_at;
+      kind = kPrecharge;
+      ready = bank.precharge_at;
     }
   }
-  candidate.entry = entry;
-  candidate.age = requests[entry].age;
-  candidate.ready =
-      std::max(candidate.ready, requests[entry].accepted + device_.controller_latency);
+  ready = std::max(ready, requests[entry].accepted + device_.controller_latency);
+  candidates_.ready[index] = 2 * ready + (kind == kColumn ? 0 : 1);
+  candidates_.age[index] = requests[entry].age;
+  candidates_.limit[index] = kind * num_groups_ + bank.group;
+  candidates_.entry[index] = entry;
 }
 
-void DramScheduler::set_limits(Cycles row_bus, Cycles column_bus) {
-  for (std::uint32_t group = 0; group < banks_.num_groups(); ++group) {
-    const Cycles column = writing_ ? banks_.group_write_at(group) : banks_.group_read_at(group);
-    limits_[kColumn][group] = std::max(column, column_bus);
-    limits_[kActivate][group] = std::max(banks_.group_activate_at(group), row_bus);
-    limits_[kPrecharge][group] = row_bus;
+void DramScheduler::set_limits(const Buses& buses) {
+  std::uint64_t* const column = from_.data() + kColumn * num_groups_;
+  std::uint64_t* const activate = from_.data() + kActivate * num_groups_;
+  std::uint64_t* const precharge = from_.data() + kPrecharge * num_groups_;
+  for (std::uint32_t group = 0; group < num_groups_; ++group) {
+    const Cycles data = writing_ ? banks_.group_write_at(group) : banks_.group_read_at(group);
+    column[group] = 2 * std::max(data, buses.column);
+    activate[group] = 2 * std::max(banks_.group_activate_at(group), buses.row) + 1;
+    precharge[group] = 2 * buses.row + 1;
   }
 }
 
-DramScheduler::Choice DramScheduler::choose(Cycles row_bus, Cycles column_bus,
-                                            const std::vector<Cycles>& refresh_at) {
+// Of the candidates of these banks.
+std::uint32_t DramScheduler::oldest_of(std::uint64_t banks) const {
+  auto oldest = static_cast<std::uint32_t>(std::countr_zero(banks));
+  while ((banks &= banks - 1) != 0) {
+    const auto bank = static_cast<std::uint32_t>(std::countr_zero(banks));
+    if (candidates_.age[bank] < candidates_.age[oldest]) oldest = bank;
+  }
+  return oldest;
+}
+
+DramScheduler::Choice DramScheduler::choose(const Buses& buses) {
   choose_direction();
-  const std::uint64_t busy = queue().busy_banks();
-  for (std::uint64_t stale = stale_ & busy; stale != 0; stale &= stale - 1) {
-    renew(static_cast<std::uint32_t>(std::countr_zero(stale)));
+  for (; stale_ != 0; stale_ &= stale_ - 1) {
+    renew(static_cast<std::uint32_t>(std::countr_zero(stale_)));
   }
-  stale_ &= ~busy;
-  set_limits(row_bus, column_bus);
-  // Twice the time, plus one for a row command, orders by time and then by kind.
-  std::uint64_t best_order = kNever;
-  std::uint64_t best_age = 0;
-  std::uint32_t best_bank = 0;
-  for (std::uint64_t rest = busy; rest != 0; rest &= rest - 1) {
-    const auto index = static_cast<std::uint32_t>(std::countr_zero(rest));
-    const Candidate& candidate = candidates_[index];
-    const Cycles at = std::max(candidate.ready, limits_[candidate.kind][candidate.group]);
-    const std::uint64_t order = 2 * at + (candidate.kind == kColumn ? 0 : 1);
-    if (order > best_order || (order == best_order && candidate.age > best_age)) continue;
-    if (at >= refresh_at[candidate.rank]) continue;
-    best_order = order;
-    best_age = candidate.age;
-    best_bank = index;
+  set_limits(buses);
+  for (std::uint64_t banks = queue().busy_banks(); banks != 0;) {
+    std::uint64_t best = 0;
+    const std::uint32_t bank = oldest_of(earliest_of(banks, best));
+    if (is_allowed(bank, best)) return choice_of(bank, best);
+    banks &= ~banks_of_rank(banks_.bank(bank).rank);
   }
-  if (best_order == kNever) return {};
-  const Candidate& best = candidates_[best_bank];
-  Choice choice{best_order / 2, DramCommand::kPrecharge, best_bank, best.entry};
-  if (best.kind == kActivate) choice.command = DramCommand::kActivate;
-  if (best.kind == kColumn) choice.command = writing_ ? DramCommand::kWrite : DramCommand::kRead;
+  return {};
+}
+
+// Those of these banks whose candidates may go first, and when. Which one is better is as good as
+// random, so that a branch on it would be slow.
+std::uint64_t DramScheduler::earliest_of(std::uint64_t banks, std::uint64_t& best) const {
+  std::uint64_t earliest = 0;
+  best = ~std::uint64_t{0};
+  for (; banks != 0; banks &= banks - 1) {
+    const auto bank = static_cast<std::uint32_t>(std::countr_zero(banks));
+    const std::uint64_t order = order_of(bank);
+    const std::uint64_t no_later = 0 - std::uint64_t{order <= best};
+    const std::uint64_t no_earlier = 0 - std::uint64_t{order >= best};
+    earliest = (earliest & no_earlier) | (banks & -banks & no_later);
+    best = std::min(best, order);
+  }
+  return earliest;
+}
+
+bool DramScheduler::remains_best(const Choice& choice, const DramRequest& joined) {
+  const bool was_writing = writing_;
+  choose_direction();
+  if (writing_ != was_writing || stale_ != std::uint64_t{1} << joined.bank) return false;
+  if (joined.write != writing_) return true;
+  const std::uint64_t ready = candidates_.ready[joined.bank];
+  const BankLists::Index entry = candidates_.entry[joined.bank];
+  renew(joined.bank);
+  stale_ = 0;
+  if (candidates_.ready[joined.bank] == ready && candidates_.entry[joined.bank] == entry) {
+    return true;
+  }
+  const bool of_that_bank = choice.entry != BankLists::kNone && choice.bank == joined.bank;
+  return !of_that_bank && order_of(joined.bank) / 2 > choice.at;
+}
+
+DramScheduler::Choice DramScheduler::choice_of(std::uint32_t bank, std::uint64_t order) const {
+  Choice choice{order / 2, DramCommand::kPrecharge, bank, candidates_.entry[bank]};
+  const std::uint32_t kind = candidates_.limit[bank] / num_groups_;
+  if (kind == kActivate) choice.command = DramCommand::kActivate;
+  if (kind == kColumn) choice.command = writing_ ? DramCommand::kWrite : DramCommand::kRead;
   return choice;
 }
 

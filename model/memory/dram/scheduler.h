@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -33,14 +34,21 @@ class DramScheduler {
     std::uint32_t bank = 0;  ///< or rank, of kPrechargeAll and kRefresh
     BankLists::Index entry = BankLists::kNone;
   };
-  /// The best command that is issued no earlier than `row_bus` or `column_bus`, by its bus.
-  /// Commands at or after refresh_at[rank] are not considered.
-  [[nodiscard]] Choice choose(Cycles row_bus, Cycles column_bus,
-                              const std::vector<Cycles>& refresh_at);
+  /// First free cycle of the command buses.
+  struct Buses {
+    Cycles row = 0, column = 0;
+  };
+  /// The best command that is issued no earlier than its bus is free.
+  [[nodiscard]] Choice choose(const Buses& buses);
+  /// Whether a choice is still the best one after a request has joined its bank's others, with
+  /// nothing else changed. False may also mean: not sure.
+  [[nodiscard]] bool remains_best(const Choice& choice, const DramRequest& joined);
 
+  /// Commands at or after refresh_at[rank] are not considered from now on.
+  void set_refreshes(const std::vector<Cycles>& refresh_at) { refresh_at_ = refresh_at; }
   /// The bank or its requests have changed.
   void touch(std::uint32_t bank) { stale_ |= std::uint64_t{1} << bank; }
-  void touch_all() { stale_ = ~std::uint64_t{0}; }
+  void touch_all() { stale_ = all_banks_; }
   /// A request of `bank` was served although an older one waits for another row.
   void count_overtaken(std::uint32_t bank) { ++overtaken_[bank]; }
   void row_opened(std::uint32_t bank) { overtaken_[bank] = 0; }
@@ -50,29 +58,49 @@ class DramScheduler {
  private:
   // Numbers of the kinds of candidates, which index the limits.
   enum Kind : std::uint8_t { kColumn, kActivate, kPrecharge };
-  struct Candidate {
-    Cycles ready = 0;  ///< as far as bank and request go
-    std::uint64_t age = 0;
-    BankLists::Index entry = BankLists::kNone;
-    Kind kind{};
-    std::uint8_t group = 0;
-    std::uint8_t rank = 0;
+  static constexpr std::uint32_t kNumKinds = 3;
+  static constexpr std::uint32_t kMostBanks = 64;
+
+  // Twice the time, plus one for a row command, orders by time and then by kind. Kept apart by what
+  // the choice looks at, so that it runs over banks without a branch.
+  struct Candidates {
+    std::array<std::uint64_t, kMostBanks> ready;  ///< as far as bank and request go
+    std::array<std::uint64_t, kMostBanks> age;
+    std::array<std::uint32_t, kMostBanks> limit;  ///< kind x groups + group
+    std::array<BankLists::Index, kMostBanks> entry;
   };
   void choose_direction();
   void renew(std::uint32_t bank);
-  void set_limits(Cycles row_bus, Cycles column_bus);
+  void set_limits(const Buses& buses);
+  [[nodiscard]] std::uint64_t order_of(std::uint32_t bank) const {
+    return std::max(candidates_.ready[bank], from_[candidates_.limit[bank]]);
+  }
+  [[nodiscard]] bool is_allowed(std::uint32_t bank, std::uint64_t order) const {
+    return order / 2 < refresh_at_[banks_.bank(bank).rank];
+  }
+  [[nodiscard]] std::uint64_t banks_of_rank(std::uint32_t rank) const {
+    const std::uint32_t banks = device_.organization.banks_per_rank();
+    return all_banks_ >> (num_banks_ - banks) << (rank * banks);
+  }
+  [[nodiscard]] std::uint64_t earliest_of(std::uint64_t banks, std::uint64_t& best) const;
+  [[nodiscard]] std::uint32_t oldest_of(std::uint64_t banks) const;
+  [[nodiscard]] Choice choice_of(std::uint32_t bank, std::uint64_t order) const;
   [[nodiscard]] const BankLists& queue() const { return writing_ ? writes_ : reads_; }
 
   const DramDevice& device_;
   const BankTiming& banks_;
   const BankLists& reads_;
   const BankLists& writes_;
-  std::vector<Candidate> candidates_;     ///< a bank
+  const std::uint32_t num_banks_, num_groups_;
+  Candidates candidates_{};               ///< of banks with requests
   std::vector<std::uint32_t> overtaken_;  ///< a bank: row hits that went before an older request
-  std::array<std::vector<Cycles>, 3> limits_;  ///< a kind, a group: earliest for all its banks
-  std::uint64_t stale_ = ~std::uint64_t{0};
-  bool writing_ = false;   ///< whose requests are served now
-  bool draining_ = false;  ///< writes go first until few are left
+  std::array<std::uint64_t, kNumKinds * kMostBanks>
+      from_{};  ///< a kind, a group: for all its banks
+  std::vector<Cycles> refresh_at_;
+  const std::uint64_t all_banks_;
+  std::uint64_t stale_ = 0;  ///< bit i: bank i or its requests have changed
+  bool writing_ = false;     ///< whose requests are served now
+  bool draining_ = false;    ///< writes go first until few are left
 };
 
 }  // namespace sheaf

@@ -79,6 +79,68 @@ TEST(CheckConfig, GeometryOfACacheThatIsNotBuiltDoesNotMatter) {
             "");
 }
 
+TEST(CheckConfig, SectorsDivideALineIntoPartsThatAreNotTooSmall) {
+  EXPECT_EQ(verdict([](Config& c) { c.node_cache.sectors = 3; }),
+            "node_cache.sectors = 3 must be a power of two");
+  EXPECT_EQ(verdict([](Config& c) { c.node_cache.sectors = 8; }),
+            "node_cache.sectors = 8 makes sectors of 8B of a line of 64B; at least 16B are needed");
+  EXPECT_EQ(verdict([](Config& c) { c.l2.sectors = 2; }),
+            "node_cache.line / sectors = 64B must not be larger than l2.line / sectors = 32B");
+  EXPECT_EQ(verdict([](Config& c) { c.texture_cache.sectors = 4; }), "");
+}
+
+TEST(CheckConfig, ATreeOfBitsNeedsAPowerOfTwoOfWays) {
+  const auto with_ways = [](std::uint32_t ways) {
+    return verdict([ways](Config& c) {
+      c.node_cache.replacement = Replacement::kPlru;
+      c.node_cache.ways = ways;
+      c.node_cache.capacity = Bytes{64} * ways;
+    });
+  };
+  EXPECT_EQ(with_ways(3),
+            "node_cache.ways = 3 must be a power of two up to 64 with replacement = plru");
+  EXPECT_EQ(with_ways(128),
+            "node_cache.ways = 128 must be a power of two up to 64 with replacement = plru");
+  EXPECT_EQ(with_ways(64), "");
+}
+
+TEST(CheckConfig, BanksOfAPrivateCacheAreAPowerOfTwo) {
+  EXPECT_EQ(verdict([](Config& c) { c.node_cache.banks = 6; }),
+            "node_cache.banks = 6 must be a power of two");
+}
+
+TEST(CheckConfig, SetsMakeTheCapacity) {
+  Config config;
+  static_cast<void>(declare_parameters(config));
+  config.node_cache.sets = 32;
+  config.l2.sets = 128;
+  derive_capacities(config);
+  EXPECT_EQ(config.node_cache.capacity, 32U * 64 * 4);
+  EXPECT_EQ(config.l2.capacity, 128U * 64 * 8 * 4);
+  EXPECT_EQ(verdict([](Config& c) { c.node_cache.sets = 33; }),
+            "node_cache.sets = 33 must be a power of two");
+}
+
+TEST(CheckConfig, OnlyACrossbarWithAWidthHasADepth) {
+  EXPECT_EQ(verdict([](Config& c) { c.crossbar.depth = 4; }),
+            "crossbar.depth = 4 needs a crossbar.request_width; without one nothing waits");
+}
+
+TEST(CheckConfig, TheReferenceRefusesWhatItDoesNotModel) {
+  const auto clocked = [](const std::function<void(Config&)>& change) {
+    return verdict([&](Config& c) {
+      c.run.fidelity = Fidelity::kClocked;
+      change(c);
+    });
+  };
+  EXPECT_EQ(clocked([](Config&) {}), "");
+  EXPECT_EQ(clocked([](Config& c) { c.flow.control = FlowPolicy::kSpill; }),
+            "run.fidelity = clocked models only flow.control = tile and credits");
+  EXPECT_EQ(clocked([](Config& c) { c.film_cache.write.buffer = 2; }),
+            "run.fidelity = clocked models only film_cache.write_buffer = 0");
+  EXPECT_EQ(clocked([](Config& c) { c.l2.replacement = Replacement::kRandom; }), "");
+}
+
 TEST(CheckConfig, APacketFitsIntoATile) {
   EXPECT_EQ(verdict([](Config& c) { c.flow.tile_size = 3; }),
             "flow.tile_size = 3 makes tiles of 9 pixels, fewer than packet.size = 16");

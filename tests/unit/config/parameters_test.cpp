@@ -115,7 +115,7 @@ TEST_F(Parameters, WrongTypesAreRefused) {
   EXPECT_EQ(get("run.keep_all").assign(std::int64_t{1}), "expected true or false, got 1");
   EXPECT_EQ(get("ray_cache.heuristic").assign(true), "expected a text, got true");
   EXPECT_EQ(get("flow.control").assign(std::string("tiles")),
-            "expected one of tile, credits, got \"tiles\"");
+            "expected one of tile, credits, spill, got \"tiles\"");
   EXPECT_EQ(get("l2.capacity").assign(std::string("32KB")),
             "expected a size such as \"32KiB\" or a number of bytes, got \"32KB\"");
   EXPECT_EQ(get("clock.frequency").assign(std::string("1.5 Ghz")),

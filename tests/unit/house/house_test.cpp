@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 17> kRooms{
-    "base",      "config",  "stats",   "geometry", "scene",     "kdtree",
-    "traversal", "sorting", "shading", "image",    "tracefile", "channels",
-    "memory",    "units",   "system",  "report",   "apps"};
+constexpr std::array<std::string_view, 19> kRooms{
+    "base",    "config",  "stats",  "geometry",  "scene",    "kdtree", "traversal",
+    "sorting", "shading", "image",  "tracefile", "channels", "memory", "units",
+    "system",  "energy",  "report", "stability", "apps"};
 
 std::size_t floor_of(std::string_view room) {
   return static_cast<std::size_t>(std::ranges::find(kRooms, room) - kRooms.begin());

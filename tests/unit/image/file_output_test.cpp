@@ -51,6 +51,40 @@ TEST(WriteFile, ReplacesWhatWasThere) {
   std::filesystem::remove(path);
 }
 
+TEST(FileOutput, RemovesWhatWasNotClosed) {
+  const auto path = temporary("sheaf_not_closed");
+  {
+    FileOutput output(path);
+    output.write(std::vector<std::uint8_t>(10));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(FileOutput, WritesWhereItWasToldTo) {
+  const auto path = temporary("sheaf_seek");
+  FileOutput output(path);
+  output.write(std::vector<std::uint8_t>{'a', 'b', 'c'});
+  output.seek(1);
+  EXPECT_EQ(output.position(), 1U);
+  output.write(std::vector<std::uint8_t>{'x'});
+  output.close();
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(content, "axc");
+  std::filesystem::remove(path);
+}
+
+TEST(FileOutput, DoesNotForgetAFailureWhoseExceptionWasLost) {
+  const auto path = temporary("sheaf_lost_failure");
+  const FileSizeLimit limit(20'000);
+  {
+    FileOutput output(path);
+    EXPECT_THROW(output.write(std::vector<std::uint8_t>(100'000)), Error);
+    EXPECT_THROW(output.close(), Error);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(WriteFile, LeavesNoHalfWrittenFile) {
   const auto path = temporary("sheaf_half_written");
   const FileSizeLimit limit(20'000);

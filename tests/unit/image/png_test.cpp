@@ -7,9 +7,15 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "base/errors.h"
 #include "image/heat_color.h"
@@ -32,6 +38,27 @@ Decoded decode(const std::vector<std::uint8_t>& png) {
     d.rgb.assign(pixels.get(), pixels.get() + d.width * d.height * d.channels);
   }
   return d;
+}
+
+/// What is left in a file.
+std::vector<std::uint8_t> written(const std::function<void(const std::filesystem::path&)>& write) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "sheaf_png_bytes.png";
+  write(path);
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height,
+                                     std::span<const Vec3> pixels) {
+  return written([&](const auto& path) { write_png(path, width, height, rows_of(pixels)); });
+}
+
+std::vector<std::uint8_t> encode_heat_map_png(std::uint32_t width, std::uint32_t height,
+                                              std::span<const float> values) {
+  return written(
+      [&](const auto& path) { write_heat_map_png(path, width, height, rows_of(values)); });
 }
 
 /// CIE luminance of an sRGB colour.
@@ -75,14 +102,14 @@ TEST(Png, HasTheSameBytesEveryTime) {
 
 TEST(Png, RefusesPixelsThatDoNotFit) {
   const std::vector<Vec3> pixels(5);
-  EXPECT_THROW((void)encode_png(2, 2, pixels), std::logic_error);
-  EXPECT_THROW((void)encode_png(0, 0, {}), std::logic_error);
+  EXPECT_THROW(encode_png(2, 2, pixels), std::logic_error);
+  EXPECT_THROW(encode_png(0, 0, {}), std::logic_error);
 }
 
 TEST(Png, SaysWhichFileCannotBeWritten) {
   const std::vector<Vec3> pixels(1);
   try {
-    write_png("/no_such_folder/image.png", 1, 1, pixels);
+    write_png("/no_such_folder/image.png", 1, 1, rows_of<Vec3>(pixels));
     FAIL() << "written into a folder that does not exist";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kOutput);

@@ -137,6 +137,12 @@ TEST(DramTiming, ReadsOfTwoBankGroupsKeepTccdSApart) {
       between(C::kRead, C::kRead), 0, [](DramSpec& s) { s.timing.tCCD_L = 4 * kLarge; });
 }
 
+TEST(DramTiming, WritesOfTwoBankGroupsKeepTccdSApart) {
+  expect_gap(
+      &DramTiming::tCCD_S, [](ChannelBench& b) { b.write(0, {.group = 0}).write(0, {.group = 1}); },
+      between(C::kWrite, C::kWrite), 0, [](DramSpec& s) { s.timing.tCCD_L = 4 * kLarge; });
+}
+
 TEST(DramTiming, ActivatesOfOneBankGroupKeepTrrdLApart) {
   expect_gap(
       &DramTiming::tRRD_L, [](ChannelBench& b) { b.read(0, {.bank = 0}).read(0, {.bank = 1}); },
@@ -204,6 +210,25 @@ TEST(DramTiming, ReadsOfTwoRanksLeaveTrtrsBetweenTheirData) {
       between(C::kRead, C::kRead), 1, [](DramSpec& s) { s.ranks = 2; });
 }
 
+TEST(DramTiming, WritesOfTwoRanksLeaveTrtrsBetweenTheirData) {
+  expect_gap(
+      &DramTiming::tRTRS, [](ChannelBench& b) { b.write(0, {.rank = 0}).write(0, {.rank = 1}); },
+      between(C::kWrite, C::kWrite), 1, [](DramSpec& s) { s.ranks = 2; });
+}
+
+// The data of a read begin tCL after it, those of a write tCWL: both are 3 here.
+TEST(DramTiming, WriteOfAnotherRankLeavesTrtrsAfterTheDataOfARead) {
+  expect_gap(
+      &DramTiming::tRTRS, [](ChannelBench& b) { b.read(0, {.rank = 0}).write(1, {.rank = 1}); },
+      between(C::kRead, C::kWrite), 1, [](DramSpec& s) { s.ranks = 2; });
+}
+
+TEST(DramTiming, ReadOfAnotherRankLeavesTrtrsAfterTheDataOfAWrite) {
+  expect_gap(
+      &DramTiming::tRTRS, [](ChannelBench& b) { b.write(0, {.rank = 0}).read(5, {.rank = 1}); },
+      between(C::kWrite, C::kRead), 1, [](DramSpec& s) { s.ranks = 2; });
+}
+
 TEST(DramTiming, ActivateWaitsForTrfcAfterARefresh) {
   expect_gap(
       &DramTiming::tRFC, [](ChannelBench& b) { b.read(5001, {}); },
@@ -214,6 +239,40 @@ TEST(DramTiming, RefreshesComeEveryTrefi) {
   expect_gap(
       &DramTiming::tREFI, [](ChannelBench& b) { b.read(5 * kLarge, {}); },
       between(C::kRefresh, C::kRefresh), 0, [](DramSpec& s) { s.refresh = true; });
+}
+
+// Refreshes of idle time are done at once unless someone watches; both must come to the same.
+TEST(DramTiming, IdleRefreshesDoneAtOnceComeToTheSame) {
+  for (const std::uint32_t ranks : {1U, 2U, 4U}) {
+    const DramDevice device = ddr4([&](DramSpec& s) { s.ranks = ranks; });
+    const Cycles period = device.timing.tREFI;
+    for (const Cycles gap : {period, 3 * period - 1, 10 * period + 1, 1000 * period + 17}) {
+      DramChannel watched(device);
+      watched.watch([](const IssuedCommand&) {});
+      DramChannel alone(device);
+      std::vector<DramDone> seen;
+      std::vector<DramDone> done;
+      for (std::uint32_t i = 0; i < 5; ++i) {
+        const DramRequest request{.arrival = i * gap,
+                                  .tag = i,
+                                  .bank = i % 2,
+                                  .row = 7 * i,
+                                  .bursts = 1,
+                                  .write = i == 3};
+        watched.push(request);
+        alone.push(request);
+      }
+      watched.advance(5 * gap, seen);
+      alone.advance(5 * gap, done);
+      ASSERT_EQ(done.size(), 5U);
+      for (std::size_t i = 0; i < done.size(); ++i) EXPECT_EQ(done[i].at, seen[i].at) << gap;
+      EXPECT_EQ(alone.now(), watched.now()) << gap;
+      std::vector<std::uint64_t> counts[2];
+      watched.stats(5 * gap).for_each([&](auto&&, std::uint64_t n) { counts[0].push_back(n); });
+      alone.stats(5 * gap).for_each([&](auto&&, std::uint64_t n) { counts[1].push_back(n); });
+      EXPECT_EQ(counts[0], counts[1]) << gap;
+    }
+  }
 }
 
 TEST(DramTiming, OpenRowIsClosedTrpBeforeARefresh) {

@@ -88,5 +88,17 @@ TEST(Plot, ShowsEachPoint) {
   EXPECT_NE(plot_png(other), plot_png(two_series()));
 }
 
+// The range below needs a longer step between its ticks than the one it was widened by.
+TEST(AxisRange, HasNoTickOutsideOfItself) {
+  AxisRange range(PlotScale::kLog10);
+  range.include(3.36e-11);
+  range.include(1.88e-3);
+  range.round();
+  for (const double tick : range.ticks()) {
+    EXPECT_GE(range.position(tick), -1e-9) << tick;
+    EXPECT_LE(range.position(tick), 1 + 1e-9) << tick;
+  }
+}
+
 }  // namespace
 }  // namespace sheaf::test

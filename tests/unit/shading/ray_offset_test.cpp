@@ -32,6 +32,30 @@ TEST(RayOffset, LeavesCoordinatesAcrossTheNormalAlone) {
             Vec3(offset_coordinate(5.0F, 1.0F), -7.0F, 0.01F));
 }
 
+TEST(RayOffset, HasTheUnitOneInScenesOfOrdinarySizeAndWithoutAny) {
+  EXPECT_EQ(offset_unit({Vec3(-0.25F, 0.0F, 0.0F), Vec3(0.0F)}), 1.0F);
+  EXPECT_EQ(offset_unit({Vec3(0.0F), Vec3(1e6F)}), 1.0F);
+  EXPECT_EQ(offset_unit({}), 1.0F);
+}
+
+TEST(RayOffset, ShrinksWithScenesBelowAQuarterOfAUnit) {
+  EXPECT_EQ(offset_unit({Vec3(0.0F), Vec3(0.0F, 0.24F, 0.0F)}), 0.125F);
+  EXPECT_EQ(offset_unit({Vec3(-3e-6F), Vec3(1e-6F)}), 0x1p-19F);
+  EXPECT_GT(offset_unit({Vec3(0.0F), Vec3(0.0F)}), 0.0F);
+  const OffsetScale small{.unit = 0x1p-19F};
+  EXPECT_EQ(offset_coordinate(0.0F, 1.0F, small), 0x1p-35F);
+  EXPECT_EQ(offset_coordinate(0x1p-24F, 1.0F, small), 0x1p-24F + 256.0F * 0x1p-47F);
+}
+
+TEST(RayOffset, StepsAtLeastAMillionthOfTrianglesLargerThan64Units) {
+  EXPECT_EQ(least_offset(64.0F), 0.0F);
+  const OffsetScale large{.least = least_offset(0x1p20F)};
+  EXPECT_EQ(large.least, 1.0F);
+  EXPECT_EQ(offset_coordinate(0.0F, 0.5F, large), 0.5F);
+  EXPECT_EQ(offset_coordinate(100.0F, -0.5F, large), 99.5F);
+  EXPECT_EQ(offset_coordinate(1e6F, 1.0F, large), offset_coordinate(1e6F, 1.0F));
+}
+
 TEST(RayOffset, NeverLeavesTheFloats) {
   const float max = std::numeric_limits<float>::max();
   EXPECT_TRUE(std::isfinite(offset_coordinate(max, 1.0F)));

@@ -66,6 +66,27 @@ INSTANTIATE_TEST_SUITE_P(Shapes, TileOrderShape,
                                          Shape{20, 11, 64, 3}, Shape{13, 9, 6, 1},
                                          Shape{64, 32, 12, 64}));
 
+TEST(TileOrder, VisitsOnlyTheTilesThatAreChosen) {
+  TileOrder all(32, 32, 16, 16);
+  TileOrder chosen(32, 32, 16, 16, {1, 3});
+  EXPECT_EQ(chosen.num_tiles(), 2U);
+  TileOrder::Run expected;
+  TileOrder::Run run;
+  for (const std::uint32_t tile : {1U, 3U}) {
+    EXPECT_EQ(chosen.tile(), tile);
+    EXPECT_EQ(chosen.is_last(), tile == 3);
+    while (all.tile() != tile) all.next_tile();
+    while (all.next_run(expected)) {
+      ASSERT_TRUE(chosen.next_run(run));
+      EXPECT_EQ(run.pixels, expected.pixels);
+      EXPECT_EQ(run.tile, tile);
+    }
+    EXPECT_FALSE(chosen.next_run(run));
+    chosen.next_tile();
+  }
+  EXPECT_TRUE(chosen.is_done());
+}
+
 TEST(TileOrder, MakesRunsOfSixteenFourByFourBlocks) {
   for (const TileOrder::Run& run : runs_of({48, 32, 16, 16})) {
     const std::uint32_t corner = run.pixels[0];

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "double_oracle.h"
 #include "support/embree_oracle.h"
 #include "test_mesh.h"
 

@@ -20,14 +20,14 @@ TEST(FlowControl, ByCreditsAdmitsExactlyWhatFits) {
   EXPECT_FALSE(flow.by_tile());
   EXPECT_TRUE(flow.admits(100));
   EXPECT_FALSE(flow.admits(101));
-  flow.admit(16, 60);
+  flow.admit(16, 60, 0);
   EXPECT_TRUE(flow.admits(40));
   EXPECT_FALSE(flow.admits(41));
 }
 
 TEST(FlowControl, GivesReservationsBackAsRaysRetire) {
   FlowControl flow = flow_of(FlowPolicy::kCredits, 100);
-  flow.admit(16, 60);
+  flow.admit(16, 60, 0);
   flow.replace(16, 10, 60, 25, 1);
   EXPECT_TRUE(flow.admits(75));
   EXPECT_FALSE(flow.admits(76));
@@ -38,51 +38,68 @@ TEST(FlowControl, GivesReservationsBackAsRaysRetire) {
 TEST(FlowControl, ByTileAdmitsWithoutALimit) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 1);
   EXPECT_TRUE(flow.by_tile());
-  flow.admit(1000, 1000);
+  flow.admit(1000, 1000, 0);
   EXPECT_TRUE(flow.admits(1000));
 }
 
 TEST(FlowControl, CountsTheRaysInTheLoopAndTheMostEver) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
-  flow.admit(16, 0);
+  flow.admit(16, 0, 0);
   flow.replace(16, 20, 0, 0, 1);
   EXPECT_EQ(flow.live(), 20U);
   flow.replace(20, 3, 0, 0, 2);
-  flow.admit(5, 0);
+  flow.admit(5, 0, 2);
   EXPECT_EQ(flow.live(), 8U);
   EXPECT_EQ(flow.max_live(), 20U);
 }
 
 TEST(FlowControl, IsQuietWhenEveryRayWaitsInACell) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
-  EXPECT_TRUE(flow.is_quiet());
-  flow.admit(16, 0);
-  EXPECT_FALSE(flow.is_quiet());
+  EXPECT_TRUE(flow.is_quiet(0));
+  flow.admit(16, 0, 0);
+  EXPECT_FALSE(flow.is_quiet(1));
   flow.set_waiting(15, 0);
-  EXPECT_FALSE(flow.is_quiet());
+  EXPECT_FALSE(flow.is_quiet(1));
   flow.set_waiting(16, 0);
-  EXPECT_TRUE(flow.is_quiet());
+  EXPECT_TRUE(flow.is_quiet(1));
+}
+
+TEST(FlowControl, ShowsAChangeFromTheNextCycleOn) {
+  FlowControl flow = flow_of(FlowPolicy::kTile, 0);
+  flow.admit(16, 0, 3);
+  flow.set_waiting(16, 7);
+  flow.set_waiting_for_shader(1, 8);
+  flow.set_waiting(15, 8);
+  flow.set_source(Source::kExhausted, 8);
+  EXPECT_TRUE(flow.is_quiet(8));
+  EXPECT_FALSE(flow.waits_for_shader(8));
+  EXPECT_EQ(flow.source(8), Source::kIssuing);
+  EXPECT_TRUE(flow.is_quiet(9));
+  EXPECT_TRUE(flow.waits_for_shader(9));
+  EXPECT_EQ(flow.source(9), Source::kExhausted);
 }
 
 TEST(FlowControl, IsQuietWhenRaysWaitInCellsOfEitherCache) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
-  flow.admit(16, 0);
+  flow.admit(16, 0, 0);
   flow.set_waiting(10, 0);
-  EXPECT_FALSE(flow.waits_for_shader());
-  flow.set_waiting_for_shader(5);
-  EXPECT_FALSE(flow.is_quiet());
-  flow.set_waiting_for_shader(6);
-  EXPECT_TRUE(flow.is_quiet());
-  EXPECT_TRUE(flow.waits_for_shader());
+  EXPECT_FALSE(flow.waits_for_shader(1));
+  flow.set_waiting_for_shader(5, 0);
+  EXPECT_FALSE(flow.is_quiet(1));
+  flow.set_waiting_for_shader(6, 0);
+  EXPECT_TRUE(flow.is_quiet(1));
+  EXPECT_TRUE(flow.waits_for_shader(1));
 }
 
 TEST(FlowControl, IsFinishedWhenTheSourceIsExhaustedAndNoRayLives) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
   EXPECT_FALSE(flow.finished());
-  flow.admit(4, 0);
+  flow.admit(4, 0, 0);
   flow.set_source(Source::kExhausted, 1);
-  EXPECT_FALSE(flow.finished());
+  EXPECT_FALSE(flow.finished(2));
   flow.replace(4, 0, 0, 0, 2);
+  EXPECT_FALSE(flow.finished(2));
+  EXPECT_TRUE(flow.finished(3));
   EXPECT_TRUE(flow.finished());
   flow.set_source(Source::kTileIssued, 3);
   EXPECT_FALSE(flow.finished());
@@ -117,9 +134,9 @@ const std::vector<Cycles> kNotWoken;
 TEST(FlowControl, WakesSourceAndRegrouperACycleAfterTheLoopFallsQuiet) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
   Wakes wakes(flow);
-  flow.admit(16, 0);
+  flow.admit(16, 0, 0);
   flow.replace(8, 0, 0, 0, 5);
-  flow.set_waiting(3, 0);
+  flow.set_waiting(3, 6);
   flow.replace(8, 3, 0, 0, 7);
   sc_core::sc_start();
   EXPECT_EQ(wakes.source.woken, std::vector<Cycles>{8});
@@ -130,7 +147,7 @@ TEST(FlowControl, WakesSourceAndRegrouperACycleAfterTheLoopFallsQuiet) {
 TEST(FlowControl, ByCreditsWakesTheSourceWheneverRaysRetire) {
   FlowControl flow = flow_of(FlowPolicy::kCredits, 100);
   Wakes wakes(flow);
-  flow.admit(16, 16);
+  flow.admit(16, 16, 0);
   flow.replace(8, 0, 8, 0, 5);
   sc_core::sc_start();
   EXPECT_EQ(wakes.source.woken, std::vector<Cycles>{6});
@@ -140,7 +157,7 @@ TEST(FlowControl, ByCreditsWakesTheSourceWheneverRaysRetire) {
 TEST(FlowControl, WakesTheFilmWhenTheLastRayOfTheFrameRetires) {
   FlowControl flow = flow_of(FlowPolicy::kTile, 0);
   Wakes wakes(flow);
-  flow.admit(1, 0);
+  flow.admit(1, 0, 0);
   flow.set_source(Source::kExhausted, 2);
   flow.replace(1, 0, 0, 0, 9);
   sc_core::sc_start();

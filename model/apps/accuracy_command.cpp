@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/accuracy_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/accuracy/output.h"
+#include "apps/frame_run.h"
+#include "base/errors.h"
+#include "config/config_text.h"
+#include "config/read_config.h"
+#include "report/result_folder.h"
+
+namespace sheaf {
+namespace {
+
+constexpr const char* kFooter =
+    "Leaves accuracy.txt, accuracy.csv, image_error.csv and a plot of each. Every level runs in a\n"
+    "process of its own on the same prepared scene; run.fidelity, run.quantum, run.sample_share "
+    "and\n"
+    "film.format are chosen by this command. The reference clocked is exact and slow; timed is\n"
+    "usually the same. For example:\n"
+    "  sheaf accuracy scenes/dragon.glb --set image.width=160 --set image.height=120\n"
+    "Exit codes: 0 done; 2 command line or configuration refused; 3 scene refused; 4 result not\n"
+    "written; 5 machine stuck; 130 interrupted (nothing but whole levels is written).";
+
+// With --reference timed the dearest level is left out.
+std::vector<Level> chosen_levels(const std::string& reference) {
+  std::vector<Level> chosen;
+  for (const Level& level : levels()) {
+    chosen.push_back(level);
+    if (level.name == reference) break;
+  }
+  return chosen;
+}
+
+Config config_of(const AccuracyOptions& options, const Level& level) {
+  std::vector<std::string> settings = options.settings;
+  settings.insert(settings.end(), level.settings.begin(), level.settings.end());
+  return resolve_config(options.config, settings);
+}
+
+// The reference first: without it nothing can be said.
+bool run_levels(const AccuracyOptions& options, const PreparedScene& scene,
+                AccuracyResult& result) {
+  std::vector<Level> chosen = chosen_levels(options.reference);
+  const Level reference = chosen.back();
+  chosen.pop_back();
+  const std::optional<LevelRun> best =
+      run_level(reference, config_of(options, reference), scene, interrupted);
+  if (!best) return false;
+  result.reference = *best;
+  bool complete = true;
+  for (const Level& level : chosen) {
+    const auto run = run_level(level, config_of(options, level), scene, interrupted);
+    complete = run.has_value();
+    if (!complete) break;
+    result.runs.push_back(*run);
+  }
+  result.runs.push_back(*best);
+  return complete;
+}
+
+void write_plot(const Plot& plot, const std::string& name, ResultFolder& folder) {
+  const auto write = [&](const std::string& extension, const std::vector<std::uint8_t>& bytes) {
+    folder.write(name + extension, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  };
+  write(".svg", plot_svg(plot));
+  write(".png", plot_png(plot));
+}
+
+void write_result(const AccuracyResult& result, const Config& config, const std::string& text,
+                  ResultFolder& folder) {
+  folder.write("config.toml", config_toml(config, Comments::kMeanings));
+  folder.write("accuracy.txt", text);
+  folder.write("accuracy.csv", accuracy_csv(result));
+  write_plot(accuracy_plot(result), "accuracy", folder);
+  if (!result.images.empty()) {
+    folder.write("image_error.csv", image_error_csv(result));
+    write_plot(image_error_plot(result), "image_error", folder);
+  }
+  folder.commit();
+}
+
+}  // namespace
+
+void declare_accuracy_command(CLI::App& app, AccuracyOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "Compare the levels of fidelity and the film formats: error against run time");
+  command->add_option("SCENE", options.scene, "glTF 2.0 file (.gltf or .glb)")->required();
+  command->add_option("--config", options.config, "TOML file with parameters of the machine");
+  command->add_option("--set", options.settings, "Set one parameter; repeatable")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--reference", options.reference,
+                   "What errors are measured against: clocked (default) or timed")
+      ->check(CLI::IsMember({"clocked", "timed"}));
+  command->add_option("--out", options.out, "Folder for the results (default result/accuracy)");
+  command
+      ->add_option("--cache", options.cache,
+                   "Folder in which kd-trees are kept from run to run, or none")
+      ->type_name("DIR");
+  command->footer(kFooter);
+}
+
+int accuracy_command(const AccuracyOptions& options) {
+  const Config config = resolve_config(options.config, options.settings);
+  catch_interrupts();
+  ResultFolder folder(options.out.empty() ? "result/accuracy" : options.out);
+  PreparedScene scene = prepare_scene(options.scene, config, tree_folder(options.cache));
+  AccuracyResult result;
+  result.scene = options.scene.filename().string();
+  const bool complete = run_levels(options, scene, result);
+  if (complete) result.images = image_errors(config, scene, interrupted);
+  if (result.runs.empty()) return static_cast<int>(ExitCode::kInterrupted);
+  std::string text = accuracy_text(result);
+  if (interrupted()) text = "PARTIAL: interrupted\n" + text;
+  write_result(result, config, text, folder);
+  std::fputs(text.c_str(), stdout);
+  std::fputs(fmt::format("Results: {}\n", folder.path().string()).c_str(), stdout);
+  return static_cast<int>(interrupted() ? ExitCode::kInterrupted : ExitCode::kOk);
+}
+
+}  // namespace sheaf

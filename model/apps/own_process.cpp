@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/own_process.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "apps/parent_death.h"
+#include "base/errors.h"
+
+namespace sheaf {
+namespace {
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+// Parent and child share an open file, through which the answer comes back: numbers, or the text of
+// an error, whose code is the child's exit code.
+
+template <typename Values>
+bool write_all(std::FILE* file, const Values& values) {
+  const bool whole =
+      std::fwrite(values.data(), sizeof(values[0]), values.size(), file) == values.size();
+  return std::fflush(file) == 0 && whole;
+}
+
+template <typename Values>
+Values read_all(std::FILE* file) {
+  Values values;
+  std::rewind(file);
+  typename Values::value_type value{};
+  while (std::fread(&value, sizeof value, 1, file) == 1) values.push_back(value);
+  return values;
+}
+
+ExitCode work_here(const std::function<std::vector<double>()>& work, std::FILE* answer) {
+  const auto fail = [&](ExitCode code, const std::string& what) {
+    write_all(answer, what);
+    return code;
+  };
+  try {
+    if (write_all(answer, work())) return ExitCode::kOk;
+    return fail(ExitCode::kOutput, "a level's result could not be handed over; is the disk full?");
+  } catch (const Error& error) {
+    return fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::kUsage, "out of memory; choose a smaller picture or scene");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::kBug,
+                fmt::format("bug of the simulator, please report it: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<double> in_own_process(const std::function<std::vector<double>()>& work) {
+  const File answer(std::tmpfile(), std::fclose);
+  if (answer == nullptr) throw Error(ExitCode::kOutput, "no temporary file could be made");
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw Error(ExitCode::kUsage, "no process could be started");
+  if (child == 0) {
+    const auto work_until_parent_ends = [&] {
+      end_with_parent(parent);
+      return work();
+    };
+    _exit(static_cast<int>(work_here(work_until_parent_ends, answer.get())));
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw Error(ExitCode::kBug, "lost a process");
+  }
+  if (!WIFEXITED(status)) {
+    throw Error(ExitCode::kBug, fmt::format("a level was ended by signal {}", WTERMSIG(status)));
+  }
+  if (WEXITSTATUS(status) != 0) {
+    throw Error(static_cast<ExitCode>(WEXITSTATUS(status)), read_all<std::string>(answer.get()));
+  }
+  return read_all<std::vector<double>>(answer.get());
+}
+
+}  // namespace sheaf

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace sheaf::stability {
+
+/// Runs `job` in a process of its own, since SystemC keeps one simulation a process, and returns
+/// what it returned. Whatever ends the process otherwise is told instead: "ended by signal 11".
+/// A job that takes longer than `seconds` ends by signal 14.
+[[nodiscard]] std::string run_in_child(const std::function<std::string()>& job, unsigned seconds);
+
+}  // namespace sheaf::stability

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "geometry/watertight.h"
+#include "traversal/trace.h"
+
+namespace sheaf::stability {
+
+// Integer arithmetic without any rounding: floats are whole multiples of 2^-149. Results are
+// rounded to double at the end, to an ulp or two.
+
+/// One triangle and one ray.
+struct ExactHit {
+  double margin = 0.0;  ///< as in DoubleHit
+  double t = 0.0;       ///< infinity where the ray runs along the triangle's plane
+};
+[[nodiscard]] ExactHit hit_exactly(const TriangleRecord& triangle, const Ray& ray);
+
+/// Whether the sheared triangle contains the z axis, edges and corners included: what hit_sheared()
+/// decides. False for triangles without area in that projection.
+[[nodiscard]] bool contains_axis(const ShearedTriangle& triangle);
+
+/// The sum of finite floats.
+[[nodiscard]] double sum_exactly(std::span<const float> terms);
+
+}  // namespace sheaf::stability

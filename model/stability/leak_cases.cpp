@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+// No ray slips through a closed mesh, however well it aims at edges and corners.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+#include "stability/catalogue.h"
+#include "stability/mesh_scene.h"
+
+namespace sheaf::stability {
+namespace {
+
+/// A convex closed mesh around `centre`.
+struct ClosedMesh {
+  std::string name, extreme;
+  Mesh mesh;
+  Vec3 centre{0.0F};
+  float inner = 0.0F;  ///< origins inside lie this near to the centre
+  float outer = 0.0F;  ///< origins outside lie this far away
+  bool level = false;  ///< and at the height of the centre: the mesh reaches far up and down
+};
+
+ClosedMesh sphere(std::string name, std::string extreme, int rings, int sectors, float scale,
+                  float offset) {
+  ClosedMesh closed{std::move(name), std::move(extreme), bumpy_sphere(rings, sectors, 0.0F)};
+  closed.centre = scale * offset * Vec3(1.0F, -1.0F, 1.0F);
+  closed.mesh.transform(scale, closed.centre);
+  closed.inner = 0.4F * scale;
+  closed.outer = 3.0F * scale;
+  return closed;
+}
+
+std::vector<ClosedMesh> closed_meshes() {
+  std::vector<ClosedMesh> meshes;
+  meshes.push_back(sphere("sphere", "rays at edges and corners", 40, 60, 1.0F, 0.0F));
+  meshes.push_back(
+      sphere("sphere moved", "the same 10,000 radii from the origin", 30, 40, 1.0F, 1e4F));
+  meshes.push_back(sphere("tiny sphere", "the same scaled by 1e-6", 30, 40, 1e-6F, 0.0F));
+  meshes.push_back(sphere("huge sphere", "the same scaled by 1e6", 30, 40, 1e6F, 0.0F));
+  meshes.push_back(sphere("sphere of needles",
+                          "triangles 600 times as long as wide, all meeting "
+                          "at two poles",
+                          4, 5000, 1.0F, 0.0F));
+  meshes.push_back({"spindle", "needles 1,000,000 times as long as wide", spindle(64, 2e6F),
+                    Vec3(0.0F), 4.0F, 40.0F, true});
+  // The middle is a point of the grid, and so are most of the origins, by whole numbers.
+  meshes.push_back({"grid cube",
+                    "corners on split planes, rays along planes with zeros among "
+                    "their directions",
+                    grid_cube(8), Vec3(4.0F), 3.0F, 16.0F});
+  return meshes;
+}
+
+/// Sends packets at a closed mesh and counts the rays that get through to its other side.
+class LeakMeasurement {
+ public:
+  explicit LeakMeasurement(const ClosedMesh& source) : source_(source), scene_(source.mesh) {}
+
+  std::vector<Finding> run(int num_rays) {
+    prepare();
+    Random random(31);
+    Vec3 outer;
+    for (int i = 0; i < num_rays / (2 * kLanes); ++i) {
+      const Vec3 inner = inside(random);
+      send(
+          inner, [&] { return on_edge(random); }, true, from_inside_);
+      if (i % 5 == 0) {
+        send(
+            inner, [&] { return inner + random_direction(random); }, false, random_);
+      }
+      if (i % 4 == 0) find_facing(outer = outside(random));
+      send(
+          outer, [&] { return facing_edge(random); }, true, from_outside_);
+    }
+    const char* const why =
+        "triangles that share an edge compute the same edge function for it (watertight.h)";
+    return {from_inside_.finding("rays at edges and corners that leak out", why),
+            from_outside_.finding("rays at edges and corners that leak in", why),
+            random_.finding("random rays that leak out", why)};
+  }
+
+ private:
+  Vec3 inside(Random& random) const {
+    if (random.below(2) == 0) {
+      const float radius = source_.inner * random.uniform();
+      return source_.centre + radius * random_direction(random);
+    }
+    // A whole number of units off the centre, which lies on a plane of the grid if there is one.
+    Vec3 origin = source_.centre;
+    const float step = source_.inner / 6.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis] += step * (static_cast<float>(random.below(7)) - 3.0F);
+    }
+    return origin;
+  }
+  Vec3 outside(Random& random) const {
+    Vec3 direction = random_direction(random);
+    if (source_.level) direction = glm::normalize(Vec3(direction.x, 0.0F, direction.z));
+    return source_.centre + source_.outer * direction;
+  }
+  /// On an edge; one time in three a corner.
+  Vec3 on_edge(Random& random) const {
+    const auto& t = scene_.mesh.triangles[random.below(scene_.mesh.triangles.size())];
+    const Vec3& a = scene_.mesh.positions[t[random.below(3)]];
+    const Vec3& b = scene_.mesh.positions[t[random.below(3)]];
+    return a + random.uniform() * (b - a);
+  }
+  /// Corners whose triangles all turn towards the origin, which then sees no edge between two of
+  /// them as part of the outline.
+  void find_facing(const Vec3& origin) {
+    const double margin = 0.1 * double{source_.outer};
+    std::fill(faces_.begin(), faces_.end(), true);
+    for (std::size_t i = 0; i < scene_.records.size(); ++i) {
+      if (glm::dot(outward_[i], Vec3d(origin) - Vec3d(scene_.records[i].a)) > margin) continue;
+      for (const std::uint32_t corner : welded_[i]) faces_[corner] = false;
+    }
+  }
+  /// On an edge that faces the origin of find_facing(), corners included.
+  Vec3 facing_edge(Random& random) const {
+    for (;;) {
+      const std::size_t i = random.below(scene_.records.size());
+      const std::size_t p = random.below(3);
+      const std::size_t q = random.below(3);
+      if (!faces_[welded_[i][p]] || !faces_[welded_[i][q]]) continue;
+      const Vec3& from = scene_.mesh.positions[scene_.mesh.triangles[i][p]];
+      const Vec3& to = scene_.mesh.positions[scene_.mesh.triangles[i][q]];
+      return from + random.uniform() * (to - from);
+    }
+  }
+
+  /// Unit normals, and corners numbered by position.
+  void prepare() {
+    std::map<std::array<float, 3>, std::uint32_t> numbers;
+    for (std::size_t i = 0; i < scene_.records.size(); ++i) {
+      const TriangleRecord& t = scene_.records[i];
+      const Vec3d normal = glm::cross(Vec3d(t.b) - Vec3d(t.a), Vec3d(t.c) - Vec3d(t.a));
+      const bool inwards = glm::dot(normal, Vec3d(t.a) - Vec3d(source_.centre)) < 0.0;
+      outward_.push_back((inwards ? -normal : normal) / glm::length(normal));
+      std::array<std::uint32_t, 3> corners{};
+      std::size_t k = 0;
+      for (const Vec3& p : {t.a, t.b, t.c}) {
+        const auto next = static_cast<std::uint32_t>(numbers.size());
+        corners[k++] = numbers.try_emplace({p.x, p.y, p.z}, next).first->second;
+      }
+      welded_.push_back(corners);
+    }
+    faces_.resize(numbers.size());
+  }
+
+  /// Sends a packet from one origin. A ray leaks if it meets nothing, or, aimed at a point of the
+  /// mesh, something clearly behind that: the other side of the mesh.
+  void send(const Vec3& origin, const auto& target, bool aimed, Failures& leaks) {
+    std::array<float, kLanes> farthest{};
+    RayPacket packet;
+    packet.clear(kLanes);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Vec3 to = target() - origin;
+      farthest[static_cast<std::size_t>(lane)] =
+          aimed ? 1.02F * glm::length(to) : std::numeric_limits<float>::infinity();
+      packet.put(lane, make_ray(origin, glm::normalize(to)));
+    }
+    const auto scheme = kTraversalSchemes[num_packets_++ % kTraversalSchemes.size()];
+    TraceCounts counts;
+    trace_packet(scheme, scene_.tree, scene_.records, packet, nullptr, nullptr, counts);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const bool met = packet.hit_triangle[lane] != kNoHit;
+      leaks.check(met && packet.hit_t[lane] <= farthest[lane],
+                  [&] { return describe(packet.get(static_cast<int>(lane))); });
+    }
+  }
+
+  static constexpr int kLanes = 16;
+  const ClosedMesh& source_;
+  const MeshScene scene_;
+  std::vector<Vec3d> outward_;
+  std::vector<std::array<std::uint32_t, 3>> welded_;
+  std::vector<bool> faces_;
+  std::size_t num_packets_ = 0;
+  Failures from_inside_, from_outside_, random_;
+};
+
+}  // namespace
+
+std::vector<StabilityCase> leak_cases() {
+  // Together 1.4e7 rays at edges and corners.
+  constexpr int kRays = 2'000'000;
+  std::vector<StabilityCase> cases;
+  for (const ClosedMesh& mesh : closed_meshes()) {
+    cases.push_back({"leaks", mesh.name, mesh.extreme, [mesh](const Effort& effort) {
+                       return LeakMeasurement(mesh).run(effort.trials(kRays));
+                     }});
+  }
+  return cases;
+}
+
+}  // namespace sheaf::stability

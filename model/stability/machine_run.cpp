@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/machine_run.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <sstream>
+
+#include "config/read_config.h"
+#include "scene/scene_needs.h"
+#include "stability/child_process.h"
+#include "stability/shaded_mesh.h"
+#include "system/functional_pipeline.h"
+#include "system/machine.h"
+
+namespace sheaf::stability {
+namespace {
+
+constexpr unsigned kSecondsToHang = 60;
+
+/// A glassy, shiny ball in an open box of mirrors.
+Scene make_scene() {
+  Material glass;
+  glass.diffuse_weight = 0.3F;
+  glass.mirror_weight = 0.2F;
+  glass.transmission = 0.5F;
+  Mesh mesh = bumpy_sphere(6, 8, 0.1F);
+  mesh.add_quad(Vec3(-3.0F, -1.2F, -3.0F), Vec3(0.0F, 0.0F, 6.0F), Vec3(6.0F, 0.0F, 0.0F));
+  mesh.add_quad(Vec3(-3.0F, -1.2F, -3.0F), Vec3(6.0F, 0.0F, 0.0F), Vec3(0.0F, 4.0F, 0.0F));
+  Scene scene = scene_of(mesh, glass);
+  Light light;
+  light.position = Vec3(2.0F, 4.0F, 3.0F);
+  light.intensity = Vec3(50.0F);
+  scene.lights = {light};
+  scene.background = Vec3(0.3F, 0.4F, 0.5F);
+  scene.needs = make_needs(scene);
+  return scene;
+}
+
+std::uint64_t hash_picture(const Frame& frame, const Config& config) {
+  std::vector<Vec3> pixels;
+  for (std::uint32_t i = 0; i < config.image.width * config.image.height; ++i) {
+    pixels.push_back(frame.film->value(i));
+  }
+  return XXH3_64bits(pixels.data(), pixels.size() * sizeof(Vec3));
+}
+
+std::uint64_t hash_rays(const RayCounts& rays) {
+  std::vector<std::uint64_t> counts;
+  for (const auto& depth : rays.by_depth()) {
+    for (const RayCounts::Entry& entry : depth) {
+      counts.insert(counts.end(), {entry.spawned, entry.retired, entry.hits});
+    }
+  }
+  return XXH3_64bits(counts.data(), counts.size() * sizeof(std::uint64_t));
+}
+
+template <typename Simulator>
+bool simulate(const Config& config, const PreparedScene& scene, Frame& frame, StatsTree& stats) {
+  const BuildPlan plan = plan_machine(config, scene.scene.needs);
+  Simulator simulator(config, plan, scene, frame);
+  const bool complete = simulator.run({});
+  simulator.report(stats);
+  return complete;
+}
+
+/// "done", then the numbers; or what went wrong.
+std::string run_here(const Config& config, const PreparedScene& scene) {
+  try {
+    Frame frame(config);
+    StatsTree stats;
+    const bool timed = config.run.fidelity != Fidelity::kFunctional;
+    const bool complete = timed ? simulate<Machine>(config, scene, frame, stats)
+                                : simulate<FunctionalPipeline>(config, scene, frame, stats);
+    if (!complete) return "the frame is not complete";
+    return fmt::format("done {} {} {}", timed ? stats.count("system.cycles") : 0,
+                       hash_picture(frame, config), hash_rays(frame.rays));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+MachineScene::MachineScene(std::uint32_t recursion_level)
+    : recursion_level_(recursion_level), scene_(make_scene(), resolve_config({}, all({}))) {}
+
+std::vector<std::string> MachineScene::all(const std::vector<std::string>& settings) const {
+  std::vector<std::string> result = {"image.width=16", "image.height=16", "film.format=exact",
+                                     fmt::format("render.recursion_level={}", recursion_level_)};
+  result.insert(result.end(), settings.begin(), settings.end());
+  return result;
+}
+
+MachineRun MachineScene::run(const std::vector<std::string>& settings) const {
+  const Config config = resolve_config({}, all(settings));
+  const std::string answer = run_in_child([&] { return run_here(config, scene_); }, kSecondsToHang);
+  MachineRun run;
+  std::istringstream words(answer);
+  std::string first;
+  words >> first >> run.cycles >> run.picture >> run.rays;
+  if (first != "done" || !words) run.error = answer.empty() ? "said nothing" : answer;
+  return run;
+}
+
+}  // namespace sheaf::stability

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+// Rays that start on surfaces: none meets the surface it starts from, none slips out behind it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shading/shader.h"
+#include "stability/catalogue.h"
+#include "stability/mesh_scene.h"
+#include "stability/shaded_mesh.h"
+
+namespace sheaf::stability {
+namespace {
+
+const char* const kOffset =
+    "origins leave by 256 ulps, by 2^-16 of the scene's unit near zero (Wachter and Binder 2019) "
+    "and by 2^-20 of large triangles (decision 0060), more than positions and t are off";
+
+Material everything() {
+  Material material;
+  material.diffuse_weight = 0.3F;
+  material.mirror_weight = 0.3F;
+  material.transmission = 0.4F;
+  return material;
+}
+
+/// A mesh with a shader on it.
+class ShadedMesh {
+ public:
+  explicit ShadedMesh(const Mesh& mesh)
+      : mesh_(mesh), scene_(scene_of(mesh, everything())), shader_(scene_, {100, 0.0F}) {
+    Light sun;
+    sun.type = Light::Type::kDirectional;
+    sun.direction = glm::normalize(Vec3(0.3F, -0.8F, 0.5F));
+    scene_.lights = {sun};
+  }
+
+  [[nodiscard]] const MeshScene& mesh() const { return mesh_; }
+  [[nodiscard]] const Shader& shader() const { return shader_; }
+
+  /// Where a ray meets the mesh; triangle kNoHit if nowhere.
+  [[nodiscard]] sheaf::Hit closest(const Ray& ray) const {
+    RayPacket packet;
+    packet.clear(1);
+    packet.put(0, ray);
+    TraceCounts counts;
+    trace_packet(TraversalScheme::kSingle, mesh_.tree, mesh_.records, packet, nullptr, nullptr,
+                 counts);
+    return {packet.hit_t[0], packet.hit_u[0], packet.hit_v[0], packet.hit_triangle[0]};
+  }
+
+ private:
+  MeshScene mesh_;
+  Scene scene_;
+  Shader shader_;
+};
+
+/// A ray that comes in at a random point of a random triangle, at an angle of 1 to 1e-6.
+Ray grazing_ray(const MeshScene& scene, Random& random) {
+  for (;;) {
+    const TriangleRecord& t = scene.records[random.below(scene.records.size())];
+    const Vec3d a(t.a);
+    const Vec3d e1 = Vec3d(t.b) - a;
+    const Vec3d e2 = Vec3d(t.c) - a;
+    const Vec3d normal = glm::cross(e1, e2);
+    const double area = glm::length(normal);
+    if (!(area > 0.0)) continue;
+    const double u = random.below(4) == 0 ? 0.0 : double{random.uniform()};
+    const double v = double{random.uniform()} * (1.0 - u);
+    const Vec3d target = a + u * e1 + v * e2;
+    const double turn = 6.28 * double{random.uniform()};
+    const Vec3d along = glm::normalize(e1);
+    const Vec3d across = glm::cross(normal / area, along);
+    const double angle = std::pow(10.0, -6.0 * double{random.uniform()});
+    const Vec3d direction =
+        glm::normalize(std::cos(turn) * along + std::sin(turn) * across - angle * normal / area);
+    const double distance = std::sqrt(area) * (0.1 + double{random.uniform()});
+    return make_ray(Vec3(target - distance * direction), Vec3(direction));
+  }
+}
+
+/// Counts the rays spawned at grazing hits that meet the very triangle they start from.
+std::vector<Finding> leave_surfaces(const Mesh& mesh, int num_rays) {
+  const ShadedMesh shaded(mesh);
+  Failures own;
+  Random random(61);
+  for (int i = 0; i < num_rays; ++i) {
+    const Ray ray = [&] {
+      Ray made = grazing_ray(shaded.mesh(), random);
+      made.weight = Vec3(1.0F);
+      return made;
+    }();
+    const sheaf::Hit hit = shaded.closest(ray);
+    if (hit.triangle == kNoHit) continue;
+    const Surface surface = shaded.shader().surface(ray, hit);
+    const auto check = [&](bool spawned, const Ray& child) {
+      if (!spawned) return;
+      own.check(shaded.closest(child).triangle != hit.triangle, [&] { return describe(ray); });
+    };
+    Ray child;
+    check(shaded.shader().reflect(ray, surface, child), child);
+    check(shaded.shader().refract(ray, surface, child), child);
+    check(shaded.shader().shadow(ray, surface, 0, child), child);
+  }
+  return {own.finding("rays that meet the triangle they start from", kOffset)};
+}
+
+/// Counts the rays that get out of a closed mesh within 100 reflections.
+std::vector<Finding> stay_inside(const Mesh& mesh, int num_rays) {
+  const ShadedMesh shaded(mesh);
+  const Box& box = shaded.mesh().tree.bounds;
+  const Vec3 centre = 0.5F * (box.lo + box.hi);
+  Failures out;
+  Random random(62);
+  for (int i = 0; i < num_rays; ++i) {
+    const Ray first = make_ray(centre, random_direction(random));
+    Ray ray = first;
+    ray.weight = Vec3(1.0F);
+    bool inside = true;
+    for (int bounce = 0; inside && bounce < 100; ++bounce) {
+      const sheaf::Hit hit = shaded.closest(ray);
+      inside = hit.triangle != kNoHit;
+      Ray child;
+      if (!inside || !shaded.shader().reflect(ray, shaded.shader().surface(ray, hit), child)) break;
+      child.weight = Vec3(1.0F);
+      ray = child;
+    }
+    out.check(inside, [&] { return describe(first); });
+  }
+  return {out.finding("rays that get out of a closed mesh within 100 reflections", kOffset)};
+}
+
+Mesh moved_sphere(float scale, float offset) {
+  Mesh mesh = bumpy_sphere(40, 60, 0.0F);
+  mesh.transform(scale, scale * offset * Vec3(1.0F, -1.0F, 1.0F));
+  return mesh;
+}
+
+/// Triangles as large as the scene whose planes pass near the origin, where coordinates are small
+/// but their errors are not.
+Mesh large_through_zero(float scale) {
+  Mesh mesh;
+  Random random(63);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 u = scale * random_direction(random);
+    const Vec3 v = scale * random_direction(random);
+    const Vec3 at = scale * 1e-3F * (random_point(random) - Vec3(0.5F));
+    mesh.add(at - 0.5F * u - 0.3F * v, at + 0.5F * u - 0.3F * v, at + 0.7F * v);
+  }
+  return mesh;
+}
+
+/// Two parallel mirrors one unit apart, the lower one glowing, seen slightly aslant from between.
+std::vector<Finding> two_mirrors() {
+  constexpr int kDepth = 100;
+  constexpr float kReflectance = 0.999F;
+  Mesh mesh;
+  for (const float z : {0.0F, 1.0F}) {
+    mesh.add_quad(Vec3(-50.0F, -50.0F, z), Vec3(100.0F, 0.0F, 0.0F), Vec3(0.0F, 100.0F, 0.0F));
+  }
+  Material mirror;
+  mirror.diffuse_weight = 0.0F;
+  mirror.mirror_weight = kReflectance;
+  mirror.mirror_tinted = false;
+  Scene scene = scene_of(mesh, mirror);
+  scene.materials.push_back(mirror);
+  scene.materials[0].emission = Vec3(1.0F, 1e-30F, 1e30F);
+  scene.triangle_material = {0, 0, 1, 1};
+  scene.camera.position = Vec3(-10.0F, -10.0F, 0.5F);
+  scene.camera.forward = glm::normalize(Vec3(0.1F, 0.07F, -1.0F));
+  scene.camera.right = glm::normalize(glm::cross(scene.camera.forward, Vec3(0.0F, 1.0F, 0.0F)));
+  scene.camera.up = glm::cross(scene.camera.right, scene.camera.forward);
+  scene.camera.half_height = 0.01F;
+  const Picture picture = render(scene, {fmt::format("render.recursion_level={}", kDepth)});
+
+  double expected = 0.0;  // reflectance^0 + reflectance^2 + … + reflectance^100
+  for (int bounce = 0; bounce <= kDepth; bounce += 2) {
+    expected += std::pow(double{kReflectance}, bounce);
+  }
+  Largest error;
+  Failures rays;
+  for (const Vec3& pixel : picture.pixels) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const double right = expected * double{scene.materials[0].emission[channel]};
+      error.add(std::abs(double{pixel[channel]} - right) / right, [] { return ""; });
+    }
+  }
+  rays.check(picture.num_rays == picture.pixels.size() * (kDepth + 1),
+             [&] { return fmt::format("{} rays", picture.num_rays); });
+  return {error.finding("relative error of a pixel against the geometric series",
+                        {gamma(kDepth + 2),
+                         "gamma(102): 100 products of weights, one with the emission, one rounding "
+                         "of the exact sum"}),
+          rays.finding("pictures with more or fewer than 101 rays a pixel",
+                       "each ray meets the other mirror")};
+}
+
+}  // namespace
+
+std::vector<StabilityCase> secondary_cases() {
+  constexpr int kRays = 100'000;
+  constexpr int kPaths = 2'000;
+  struct Source {
+    const char* name;
+    const char* extreme;
+    Mesh mesh;
+    bool closed;
+  };
+  std::vector<Source> sources;
+  sources.push_back({"sphere", "angles down to 1e-6", moved_sphere(1.0F, 0.0F), true});
+  sources.push_back({"moved sphere", "10,000 radii off", moved_sphere(1.0F, 1e4F), true});
+  sources.push_back({"tiny sphere", "scaled by 1e-6", moved_sphere(1e-6F, 0.0F), true});
+  sources.push_back({"huge sphere", "scaled by 1e6", moved_sphere(1e6F, 0.0F), true});
+  sources.push_back({"room on zero", "walls where coordinates are zero", grid_cube(4), true});
+  sources.push_back({"large triangles at zero", "coordinates far smaller than their errors",
+                     large_through_zero(1.0F), false});
+  sources.push_back(
+      {"huge triangles at zero", "the same scaled by 1e6", large_through_zero(1e6F), false});
+  sources.push_back({"stadium", "0.1 units of detail on a floor of 20,000 that lies on zero",
+                     teapot_in_stadium(0.1F, 1e4F), false});
+  sources.push_back({"large stadium", "the same with a floor of 2,000,000",
+                     teapot_in_stadium(0.1F, 1e6F), false});
+  std::vector<StabilityCase> cases;
+  for (const Source& source : sources) {
+    cases.push_back({"secondary", source.name, source.extreme, [source](const Effort& effort) {
+                       std::vector<Finding> findings =
+                           leave_surfaces(source.mesh, effort.trials(kRays));
+                       if (source.closed) {
+                         std::ranges::move(stay_inside(source.mesh, effort.trials(kPaths)),
+                                           std::back_inserter(findings));
+                       }
+                       return findings;
+                     }});
+  }
+  cases.push_back({"secondary", "two mirrors", "100 reflections at 0.999 between parallel mirrors",
+                   [](const Effort&) { return two_mirrors(); }});
+  return cases;
+}
+
+}  // namespace sheaf::stability

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+// Sums of contributions in the film, by number format, against sums without any rounding.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/random.h"
+#include "image/film.h"
+#include "stability/catalogue.h"
+#include "stability/exact.h"
+
+namespace sheaf::stability {
+namespace {
+
+/// A film's format as rounding error analysis sees it.
+struct Format {
+  FilmFormat format;
+  const char* name;
+  double relative;  ///< half an ulp of the sum
+  double absolute;  ///< half the least step
+  double largest;   ///< sums saturate here
+};
+constexpr double kFloatMax = 0x1.fffffep127;
+constexpr Format kFormats[] = {{FilmFormat::kUnorm8, "unorm8", 0.0, 1.0 / 510.0, 1.0},
+                               {FilmFormat::kHalf, "half", 0x1p-11, 0x1p-25, 65504.0},
+                               {FilmFormat::kFloat, "float", 0x1p-24, 0x1p-150, kFloatMax}};
+
+const char* const kRunning =
+    "running error bound: the sum over all partial sums s of half an ulp of s (Higham 2002, "
+    "section 4.3); no larger than the sum itself";
+const char* const kOnce = "half an ulp of a float: the exact film rounds once, when it is read";
+
+/// Relative error of one format's sum.
+Finding sum_in(const Format& format, const std::vector<float>& terms) {
+  const auto film = make_film(format.format, 1);
+  double bound = 0.0;
+  for (const float term : terms) {
+    film->add(0, Vec3(term));
+    bound += format.relative * double{film->value(0).x} + format.absolute;
+  }
+  const double right = std::min(sum_exactly(terms), format.largest);
+  const double error = std::abs(double{film->value(0).x} - right) / right;
+  return {fmt::format("relative error in {}", format.name),
+          terms.size(),
+          error,
+          {std::min(bound / right, 1.0), kRunning},
+          ""};
+}
+
+Finding sum_in_exact_film(std::vector<float> terms, Random& random) {
+  const double right = sum_exactly(terms);
+  Largest error;
+  for (int order = 0; order < 3; ++order) {
+    const auto film = make_film(FilmFormat::kExact, 1);
+    for (const float term : terms) film->add(0, Vec3(term));
+    // In units of the float's last place there, so that denormals are held to the same.
+    const double ulp = std::ldexp(1.0, std::max(std::ilogb(right), -126) - 23);
+    error.add(std::abs(double{film->value(0).x} - std::min(right, kFloatMax)) / ulp,
+              [&] { return fmt::format("order {}", order); });
+    for (std::size_t i = terms.size() - 1; i > 0; --i)
+      std::swap(terms[i], terms[random.below(i + 1)]);
+  }
+  return error.finding("ulps off in exact, three orders", {0.5, kOnce});
+}
+
+std::vector<Finding> sum_in_all(const std::vector<float>& terms) {
+  std::vector<Finding> findings;
+  for (const Format& format : kFormats) findings.push_back(sum_in(format, terms));
+  Random random(71);
+  findings.push_back(sum_in_exact_film(terms, random));
+  return findings;
+}
+
+/// Log-uniform in [2^lowest, 2^highest).
+std::vector<float> spread(int count, int lowest, int highest) {
+  Random random(72);
+  std::vector<float> terms;
+  for (int i = 0; i < count; ++i) {
+    const auto range = static_cast<std::uint64_t>(highest - lowest);
+    terms.push_back(
+        std::ldexp(1.0F + random.uniform(), lowest + static_cast<int>(random.below(range))));
+  }
+  return terms;
+}
+
+/// What no film may take: each is refused, and leaves the sum as it was.
+std::vector<Finding> refuse() {
+  const float infinity = std::numeric_limits<float>::infinity();
+  Failures taken;
+  for (const FilmFormat format :
+       {FilmFormat::kUnorm8, FilmFormat::kHalf, FilmFormat::kFloat, FilmFormat::kExact}) {
+    for (const float bad : {-1.0F, -1e-45F, std::nanf(""), infinity, -infinity}) {
+      for (int channel = 0; channel < 3; ++channel) {
+        const auto film = make_film(format, 1);
+        Vec3 contribution(0.5F);
+        contribution[channel] = bad;
+        bool refused = false;
+        try {
+          film->add(0, contribution);
+        } catch (const std::logic_error&) {
+          refused = true;
+        }
+        taken.check(refused && film->value(0) == Vec3(0.0F),
+                    [&] { return fmt::format("{} in channel {}", bad, channel); });
+      }
+    }
+  }
+  return {taken.finding("contributions taken that are negative or no number",
+                        "the film's contract (film.h)")};
+}
+
+}  // namespace
+
+std::vector<StabilityCase> sum_cases() {
+  constexpr int kMany = 1'000'000;
+  std::vector<StabilityCase> cases;
+  const auto add = [&](const char* name, const char* extreme, auto terms) {
+    cases.push_back(
+        {"sums", name, extreme, [terms](const Effort&) { return sum_in_all(terms()); }});
+  };
+  add("a million millionths", "1e6 contributions of 1e-6",
+      [] { return std::vector<float>(kMany, 1e-6F); });
+  add("a thousand thousandths", "the paper's example: 1000 shadow rays of weight 0.001",
+      [] { return std::vector<float>(1000, 0.001F); });
+  add("one and crumbs", "1, then 1e6 contributions of a quarter of its ulp", [] {
+    std::vector<float> terms(kMany + 1, 0x1p-25F);
+    terms[0] = 1.0F;
+    return terms;
+  });
+  add("mixed magnitudes", "1e5 contributions from 1e-30 to 1e30",
+      [] { return spread(100'000, -100, 100); });
+  add("denormal weights", "1e5 contributions from 1e-45 to 1e-38",
+      [] { return spread(100'000, -149, -126); });
+  add("overflow", "1000 contributions near the largest float",
+      [] { return spread(1000, 126, 128); });
+  cases.push_back({"sums", "no numbers", "negative, infinite and NaN contributions",
+                   [](const Effort&) { return refuse(); }});
+  return cases;
+}
+
+}  // namespace sheaf::stability

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "system/sampled_frame.h"
+
+#include <cmath>
+
+#include "system/estimate_report.h"
+
+namespace sheaf {
+namespace {
+
+// With credits tiles overlap: what a tile takes depends on those before it, which fill the machine.
+// With tile flow control it begins empty.
+std::uint32_t warm_up_tiles(const Config& config) {
+  return config.flow.control == FlowPolicy::kTile ? 0 : 2;
+}
+
+}  // namespace
+
+SampledFrame::SampledFrame(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
+                           Frame& frame)
+    : config_(config),
+      sample_(num_tiles(config), config.run.sample_share, config.run.sample_seed,
+              warm_up_tiles(config)),
+      timed_frame_(config),
+      model_(config, scene),
+      untimed_(config, plan, scene, frame, {}, &model_),
+      machine_(config, plan, scene, timed_frame_, {nullptr, nullptr, this, sample_.visits()}) {}
+
+bool SampledFrame::run(const Monitor& monitor) {
+  monitor_ = monitor;
+  const bool timed = machine_.run([this](double share, Cycles now) {
+    stopped_ = stopped_ || (monitor_ && monitor_(share, now));
+    return stopped_;
+  });
+  if (!timed || stopped_) return false;
+  end_tile(machine_.observation(machine_.end()));
+  return model_.run(untimed_,
+                    [this](double /*share*/) { return monitor_ && monitor_(1.0, machine_.end()); });
+}
+
+void SampledFrame::tile_begins(std::uint32_t tile, Cycles now) {
+  const Observation seen = machine_.observation(now);
+  end_tile(seen);
+  const bool follows = tile == 0 || (in_tile_ && tile == tile_ + 1);
+  if (!follows && trace_up_to(tile)) machine_.load_caches(model_.snapshot());
+  in_tile_ = true;
+  tile_ = tile;
+  tile_start_ = seen;
+}
+
+// False if the run is to be stopped.
+bool SampledFrame::trace_up_to(std::uint32_t tile) {
+  model_.take_snapshot_at(tile);
+  model_.run(untimed_, [this](double /*share*/) {
+    stopped_ = stopped_ || (monitor_ && monitor_(0.0, machine_.clock_domain().now()));
+    return stopped_ || model_.has_snapshot();
+  });
+  return !stopped_;
+}
+
+void SampledFrame::end_tile(const Observation& now) {
+  if (in_tile_ && sample_.counts(tile_)) {
+    measured_[TileSample::stretch_of(tile_)] += now.since(tile_start_);
+  }
+}
+
+// What was measured of the stretches that were drawn, and what the untimed run says of them.
+SampledTotal SampledFrame::total(Observed what, std::vector<double>& measured,
+                                 std::vector<double>& rough) const {
+  std::map<std::uint32_t, double> roughly;
+  SampledTotal total;
+  const auto tiles = model_.tiles();
+  for (std::uint32_t tile = 0; tile < tiles.size(); ++tile) {
+    const auto value = static_cast<double>(tiles[tile].seen[what]);
+    roughly[TileSample::stretch_of(tile)] += value;
+    total.rough_total += value;
+  }
+  for (const std::uint32_t stretch : sample_.drawn()) {
+    measured.push_back(static_cast<double>(measured_.at(stretch)[what]));
+    rough.push_back(roughly[stretch]);
+  }
+  total.measured = measured;
+  total.rough = rough;
+  return total;
+}
+
+Estimate SampledFrame::estimate(const Quantity& quantity) const {
+  std::vector<double> measured;
+  std::vector<double> rough;
+  const SampledTotal numerator = total(quantity.total, measured, rough);
+  if (quantity.per == Observed::kNone) return estimate_total(numerator, sample_.num_stretches());
+  std::vector<double> measured_per;
+  std::vector<double> rough_per;
+  const SampledTotal denominator = total(quantity.per, measured_per, rough_per);
+  return estimate_ratio(numerator, denominator, sample_.num_stretches());
+}
+
+void SampledFrame::report(StatsTree& stats) const {
+  untimed_.report(stats);
+  if (measured_.size() != sample_.drawn().size()) return;  // was stopped
+  stats.add("sample", SampleValues::num_stretches, sample_.num_stretches());
+  stats.add("sample", SampleValues::num_drawn, sample_.drawn().size());
+  stats.add("sample", SampleValues::num_tiles_timed, sample_.visits().size());
+  for (const Quantity& quantity : observed_quantities()) {
+    report_estimate(quantity.info, estimate(quantity), stats);
+  }
+  report_frame_length(estimate(observed_quantities()[kCyclesQuantity]), config_.clock.frequency,
+                      stats);
+}
+
+}  // namespace sheaf

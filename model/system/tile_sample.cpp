@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "system/tile_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.h"
+
+namespace sheaf {
+
+TileSample::TileSample(std::uint32_t num_tiles, double share, std::uint64_t seed,
+                       std::uint32_t warm_up)
+    : num_tiles_(num_tiles), is_drawn_(num_stretches(), false) {
+  const double wanted = std::ceil(share * num_stretches());
+  const auto size =
+      std::min(num_stretches(), std::max(kFewest, static_cast<std::uint32_t>(wanted)));
+  // The first part of Fisher and Yates' shuffle.
+  std::vector<std::uint32_t> all(num_stretches());
+  std::iota(all.begin(), all.end(), 0U);
+  Random random(seed);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const auto other = i + static_cast<std::uint32_t>(random.below(num_stretches() - i));
+    std::swap(all[i], all[other]);
+    drawn_.push_back(all[i]);
+    is_drawn_[all[i]] = true;
+  }
+  std::ranges::sort(drawn_);
+  list_visits(warm_up);
+}
+
+void TileSample::list_visits(std::uint32_t warm_up) {
+  std::uint32_t next = 0;  // first tile not listed yet
+  const auto list = [&](std::uint32_t begin, std::uint32_t end) {
+    for (next = std::max(next, begin); next < std::min(end, num_tiles_); ++next) {
+      visits_.push_back(next);
+    }
+  };
+  for (const std::uint32_t stretch : drawn_) {
+    const std::uint32_t first = stretch * kStretch;
+    list(first - std::min(first, warm_up), first + kStretch);
+  }
+  list(next, next + 1);
+}
+
+}  // namespace sheaf

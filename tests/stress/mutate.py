@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Sheaf authors
+# SPDX-License-Identifier: Apache-2.0
+"""Shows that the stability catalogue can fail: removes one guard at a time and expects a case to go red.
+
+    tests/stress/mutate.py            every mutation: copies HEAD to build/mutations, builds the
+                                      command there and runs the cases named; prints a table
+    tests/stress/mutate.py --check    only that each mutation still fits the sources
+
+The exit code is 0 just when every mutation was noticed (or fits)."""
+
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+@dataclass
+class Mutation:
+    guard: str
+    cases: str  # for --only
+    edits: list  # of (file, text that stands there once, what to put instead)
+
+
+MUTATIONS = [
+    Mutation("doubles decide where an edge function is zero", "leaks/", [
+        ("model/geometry/watertight.h", "return hit_in_double(s, hit);", "return false;"),
+        ("model/traversal/packet_triangle-inl.h",
+         "lanes = (lanes & ~unsure) | decide_in_double(s, unsure, hit);",
+         "lanes = lanes & ~unsure & (decide_in_double(s, unsure, hit) | ~LaneMask{0});")]),
+    Mutation("planes widened by the rounding of the test", "rays/", [
+        ("model/traversal/ray_setup-inl.h", "6.0F * kHalfUlp", "0.0F * kHalfUlp"),
+        ("model/traversal/ray_setup-inl.h", "2.0F * kHalfUlp", "0.0F * kHalfUlp")]),
+    Mutation("a plane at 0 * infinity counts for both sides", "rays/", [
+        ("model/traversal/simd-inl.h", "return hn::Min(a, b);", "return hn::Min(b, a);"),
+        ("model/traversal/simd-inl.h", "return hn::Max(a, b);", "return hn::Max(b, a);")]),
+    Mutation("equal t goes to the lower primitive", "rays/degenerate", [
+        ("model/traversal/packet_triangle-inl.h", "hn::And(hn::Eq(hit.t, limit), lower));",
+         "hn::And(hn::Eq(hit.t, limit), hn::Not(lower)));")]),
+    Mutation("origins leave their surface", "secondary/", [
+        ("model/shading/ray_offset.h",
+         "return {offset_coordinate(p.x, n.x, scale), offset_coordinate(p.y, n.y, scale),",
+         "return scale.unit > 0.0F ? p : Vec3{offset_coordinate(p.x, n.x, scale), "
+         "offset_coordinate(p.y, n.y, scale),")]),
+    Mutation("large triangles are left by a share of their size", "secondary/", [
+        ("model/shading/ray_offset.h", "reach > 64.0F ? 0x1p-20F * reach : 0.0F",
+         "0.0F * reach")]),
+    Mutation("small scenes have a small unit", "secondary/tiny", [
+        ("model/shading/ray_offset.h", "if (!(largest < 0.25F)) return 1.0F;",
+         "if (!(largest < 0.0F)) return 1.0F;")]),
+    Mutation("weights saturate", "light/overflow", [
+        ("model/shading/saturate.h",
+         "x > 0.0F ? std::min(x, std::numeric_limits<float>::max()) : 0.0F", "std::min(x, x)")]),
+    Mutation("films take only finite contributions that are not negative", "sums/no numbers", [
+        ("model/image/film.cpp", "return x >= 0.0F && x <= kFloatMax;",
+         "return x >= 0.0F || x <= kFloatMax || x != x;")]),
+    Mutation("the exact sum carries between its words", "sums/", [
+        ("model/image/exact_sum.h", "high += words_[word] < low ? 1 : 0;",
+         "high += words_[word] < low ? 0 : 0;")]),
+    Mutation("the exact sum is rounded to nearest", "sums/", [
+        ("model/image/exact_sum.cpp",
+         "if (half && ((mantissa & 1U) != 0 || any_below(words_, shift - 1))) {",
+         "if (half && any_below(words_, shift - 1) && false) {")]),
+    Mutation("accessors end within their view", "input/beyond the file", [
+        ("model/scene/gltf_accessor.cpp",
+         "if (offset > bytes.size() || needed > bytes.size() - offset) {",
+         "if (offset > bytes.size() + needed) {")]),
+    Mutation("paths lead nowhere up", "input/beyond the folder", [
+        ("model/scene/gltf_uri.cpp", "relative.is_absolute() || climbs ||",
+         "(relative.is_absolute() && !climbs) ||"),
+        ("model/scene/gltf_uri.cpp", "if (error || end != folder_.end()) {", "if (error) {")]),
+    Mutation("time that SystemC cannot say is refused", "machines/slow clock", [
+        ("model/channels/clock_domain.h", "if (now > last_cycle_) refuse_time(now);", "")]),
+]
+
+
+def fits(tree: pathlib.Path) -> bool:
+    """Whether each edit finds its text exactly once; complains about those that do not."""
+    good = True
+    for mutation in MUTATIONS:
+        for file, old, _ in mutation.edits:
+            count = (tree / file).read_text().count(old)
+            if count != 1:
+                print(f"{mutation.guard}: {file} has {old!r} {count} times, not once",
+                      file=sys.stderr)
+                good = False
+    return good
+
+
+def copy_head(scratch: pathlib.Path) -> None:
+    """The committed sources; what an earlier run built there is kept."""
+    for path in scratch.glob("*"):
+        if path.name != "build":
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    scratch.mkdir(parents=True, exist_ok=True)
+    archive = subprocess.run(["git", "archive", "HEAD"], cwd=ROOT, check=True, capture_output=True)
+    subprocess.run(["tar", "-x", "-C", str(scratch)], input=archive.stdout, check=True)
+
+
+def build(scratch: pathlib.Path) -> None:
+    subprocess.run(["cmake", "--build", "build/tests", "--target", "sheaf", "-j2"], cwd=scratch,
+                   check=True, stdout=subprocess.DEVNULL)
+
+
+def failures(scratch: pathlib.Path, cases: str) -> list:
+    """Runs cases; the names of those that fail. A run that ends with a bug counts as one too."""
+    done = subprocess.run(["build/tests/sheaf", "stability", "--quick", "--only", cases],
+                          cwd=scratch, capture_output=True, text=True, timeout=1800)
+    if done.returncode == 0:
+        return []
+    if done.returncode == 2:
+        sys.exit(done.stderr)
+    failed, case = [], ""
+    for line in done.stdout.splitlines():
+        if not line.startswith(" "):
+            case = line.split(" (")[0]
+        elif line.endswith("FAIL") and case not in failed:
+            failed.append(case)
+    return failed or [f"ends with exit code {done.returncode}"]
+
+
+def try_out(scratch: pathlib.Path, mutation: Mutation) -> list:
+    saved = {file: (scratch / file).read_text() for file, _, _ in mutation.edits}
+    try:
+        for file, old, new in mutation.edits:
+            path = scratch / file
+            path.write_text(path.read_text().replace(old, new))
+        build(scratch)
+        return failures(scratch, mutation.cases)
+    finally:
+        for file, text in saved.items():
+            (scratch / file).write_text(text)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="only whether the mutations still fit")
+    parser.add_argument("--only", default="", help="guards that contain this")
+    arguments = parser.parse_args()
+    if arguments.check:
+        return 0 if fits(ROOT) else 1
+    scratch = ROOT / "build" / "mutations"
+    copy_head(scratch)
+    if not fits(scratch):
+        return 1
+    subprocess.run(["cmake", "--preset", "tests"], cwd=scratch, check=True,
+                   stdout=subprocess.DEVNULL)
+    print("| guard removed | cases run | cases that fail |\n| --- | --- | --- |", flush=True)
+    unnoticed = 0
+    for mutation in MUTATIONS:
+        if arguments.only not in mutation.guard:
+            continue
+        failed = try_out(scratch, mutation)
+        unnoticed += not failed
+        print(f"| {mutation.guard} | {mutation.cases} | {', '.join(failed) or 'NONE'} |", flush=True)
+    return 1 if unnoticed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

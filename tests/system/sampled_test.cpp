@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/scenes.h"
+#include "support/simulate.h"
+#include "system/observed_stats.h"
+#include "system/tile_sample.h"
+
+namespace sheaf::test {
+namespace {
+
+TEST(TileSample, DrawsEachStretchOnce) {
+  const TileSample sample(103, 0.5, 1, 0);
+  EXPECT_EQ(sample.num_stretches(), 26U);
+  EXPECT_EQ(sample.drawn().size(), 13U);
+  EXPECT_TRUE(std::ranges::is_sorted(sample.drawn()));
+  EXPECT_EQ(std::ranges::adjacent_find(sample.drawn()), sample.drawn().end());
+  EXPECT_LT(sample.drawn().back(), 26U);
+}
+
+TEST(TileSample, DrawsEveryStretchEquallyOften) {
+  std::vector<int> times(25, 0);
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    for (const std::uint32_t stretch : TileSample(100, 0.4, seed, 0).drawn()) ++times[stretch];
+  }
+  for (const int n : times) EXPECT_NEAR(n, 800, 4 * std::sqrt(2000 * 0.4 * 0.6));
+}
+
+TEST(TileSample, VisitsWhatItDrewWithWarmUpAndOneTileBehind) {
+  const TileSample sample(400, 0.05, 3, 2);
+  std::vector<std::uint32_t> expected;
+  for (const std::uint32_t stretch : sample.drawn()) {
+    const std::uint32_t first = stretch * TileSample::kStretch;
+    for (std::uint32_t tile = first < 2 ? 0 : first - 2; tile < first + TileSample::kStretch;
+         ++tile) {
+      if (expected.empty() || tile > expected.back()) expected.push_back(tile);
+    }
+  }
+  if (expected.back() != 399) expected.push_back(expected.back() + 1);
+  EXPECT_EQ(sample.visits(), expected);
+}
+
+TEST(TileSample, TakesAllWhereThereAreFew) {
+  const TileSample sample(21, 0.01, 1, 2);
+  EXPECT_EQ(sample.drawn().size(), 6U);
+  EXPECT_EQ(sample.visits().size(), 21U);
+}
+
+struct Sampled : testing::TestWithParam<Settings> {
+  static Settings small(Settings more) {
+    Settings settings{"image.width=64", "image.height=48", "flow.tile_size=4", "film.format=exact"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+  const TestScene scene{committed_scene("dragon"), small(GetParam())};
+};
+
+double value_of(const Outcome& outcome, const std::string& path) {
+  return outcome.stats.at(path).at("value").get<double>();
+}
+
+double ratio_of(const Outcome& timed, const std::string& numerator,
+                const std::string& denominator) {
+  return value_of(timed, numerator) / value_of(timed, denominator);
+}
+
+/// Some quantities of a timed run, as they are named in estimates.
+std::map<std::string, double> truth_of(const Outcome& timed) {
+  return {{"cycles", value_of(timed, "system.cycles")},
+          {"dram_bytes", value_of(timed, "system.dram.bytes_read") +
+                             value_of(timed, "system.dram.bytes_written")},
+          {"l2_hit_rate", ratio_of(timed, "system.l2.num_hits", "system.l2.num_accesses")},
+          {"film_cache_hit_rate",
+           ratio_of(timed, "system.film.cache.num_hits", "system.film.cache.num_accesses")},
+          {"p_t_secondary", value_of(timed, "trace.secondary.p_t")}};
+}
+
+TEST_P(Sampled, OfEverythingIsTimed) {
+  const Outcome timed = scene.run();
+  const Outcome all = scene.run({"run.fidelity=sampled", "run.sample_share=1"});
+  ASSERT_EQ(timed.error, "");
+  ASSERT_EQ(all.error, "");
+  EXPECT_EQ(all.count("system.cycles"), timed.count("system.cycles"));
+  for (const auto& [name, truth] : truth_of(timed)) {
+    EXPECT_NEAR(value_of(all, "estimate." + name + ".value"), truth, 1e-9 * truth) << name;
+    EXPECT_NEAR(value_of(all, "estimate." + name + ".ci95_high"), truth, 1e-9 * truth) << name;
+  }
+}
+
+TEST_P(Sampled, HasTheWholePictureAndAllRays) {
+  const Outcome timed = scene.run();
+  const Outcome sampled = scene.run({"run.fidelity=sampled"});
+  ASSERT_EQ(sampled.error, "");
+  EXPECT_TRUE(sampled.complete);
+  EXPECT_TRUE(sampled.image == timed.image);
+  EXPECT_EQ(sampled.entries({"rays."}), timed.entries({"rays."}));
+  EXPECT_LT(sampled.count("sample.num_tiles_timed"), 192U);
+}
+
+TEST_P(Sampled, GivesTheSameTwiceAndAnotherForAnotherSeed) {
+  const Outcome first = scene.run({"run.fidelity=sampled"});
+  EXPECT_EQ(first.stats, scene.run({"run.fidelity=sampled"}).stats);
+  const Outcome other = scene.run({"run.fidelity=sampled", "run.sample_seed=2"});
+  EXPECT_NE(first.count("system.cycles"), other.count("system.cycles"));
+}
+
+// Of 200 intervals that cover the truth with probability 0.95 fewer than 183 do once in 120 times.
+TEST_P(Sampled, IntervalsCoverTheTruthAsOftenAsTheyClaim) {
+  constexpr int kSeeds = 200;
+  constexpr int kFewest = 183;
+  const auto truth = truth_of(scene.run());
+  std::map<std::string, int> covered;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const Outcome sampled = scene.run({"run.fidelity=sampled", "run.sample_share=0.25",
+                                       "run.sample_seed=" + std::to_string(seed)});
+    ASSERT_EQ(sampled.error, "");
+    for (const auto& [name, value] : truth) {
+      const std::string path = "estimate." + name;
+      const bool covers = value_of(sampled, path + ".ci95_low") <= value &&
+                          value <= value_of(sampled, path + ".ci95_high");
+      covered[name] += covers ? 1 : 0;
+    }
+  }
+  for (const auto& [name, times] : covered) {
+    RecordProperty(name, times);
+    EXPECT_GE(times, kFewest) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Flows, Sampled,
+                         testing::Values(Settings{},
+                                         Settings{"flow.control=credits", "flow.credits=256"}));
+
+}  // namespace
+}  // namespace sheaf::test
