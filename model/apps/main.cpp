@@ -11,11 +11,13 @@
 
 #include "apps/accuracy_command.h"
 #include "apps/coefficients_command.h"
+#include "apps/curve_command.h"
 #include "apps/memory_command.h"
 #include "apps/observation.h"
 #include "apps/replay_command.h"
 #include "apps/run_command.h"
 #include "apps/stability_command.h"
+#include "apps/trace_command.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "energy/energy_report.h"
@@ -34,6 +36,8 @@ struct Commands {
   sheaf::MemoryOptions memory;
   sheaf::AccuracyOptions accuracy;
   sheaf::ReplayOptions replay;
+  sheaf::TraceOptions trace;
+  sheaf::CurveOptions curve;
   sheaf::StabilityOptions stability;
   std::string info_scene;
   bool schema = false;
@@ -75,6 +79,12 @@ void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
   declare_cache(*replay, options);
   replay->add_option("--scene", options.scene,
                      "Rays: the scene it was recorded from, if it is no longer where it was");
+  replay
+      ->add_option("--mode", options.mode,
+                   "Memory: elastic (an access waits for those it depends on) or fixed (it comes "
+                   "in its recorded cycle)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"elastic", "fixed"}));
   replay->add_option("--out", options.out, "Folder for the results (default result/replay)");
   replay->add_flag("--quiet", options.quiet, "Print no summary");
   declare_parent(*replay, options);
@@ -84,6 +94,7 @@ void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
           "packet\n"
           "size, traversal scheme and memory, and give the counters of a live run; no picture is "
           "made.\n"
+          "Memory traces replay on any caches, L2 and DRAM, without the scene.\n"
           "Example: sheaf replay result/sponza/rays.trace --set ray_cache.heuristic=mdir(96)\n\n") +
       kFooter);
 }
@@ -112,6 +123,8 @@ void declare(CLI::App& app, Commands& commands) {
   sheaf::declare_memory_command(app, commands.memory);
   sheaf::declare_accuracy_command(app, commands.accuracy);
   declare_replay(app, commands.replay);
+  sheaf::declare_trace_command(app, commands.trace);
+  sheaf::declare_curve_command(app, commands.curve);
   sheaf::declare_stability_command(app, commands.stability);
 
   CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
@@ -149,6 +162,8 @@ int dispatch(const CLI::App& app, const Commands& commands) {
   if (app.got_subcommand("accuracy")) return sheaf::accuracy_command(commands.accuracy);
   if (app.got_subcommand("memory")) return sheaf::memory_command(commands.memory);
   if (app.got_subcommand("replay")) return sheaf::replay_command(commands.replay);
+  if (app.got_subcommand("trace")) return sheaf::trace_command(commands.trace);
+  if (app.got_subcommand("curve")) return sheaf::curve_command(commands.curve);
   if (app.got_subcommand("stability")) return sheaf::stability_command(commands.stability);
   if (app.got_subcommand("info")) return sheaf::info_command(commands.info_scene);
   if (app.got_subcommand("coefficients")) return sheaf::coefficients_command();

@@ -15,6 +15,7 @@ namespace sheaf {
 namespace {
 
 constexpr const char* kRaysName = "rays.trace";
+constexpr const char* kMemoryName = "memory.trace";
 
 bool wants(const std::vector<std::string>& kinds, const char* kind) {
   return std::ranges::find(kinds, kind) != kinds.end();
@@ -31,6 +32,11 @@ void check_recording(const std::vector<std::string>& kinds, const Config& config
     throw Error(ExitCode::kUsage,
                 "--record memory: accesses have cycles only where time is simulated; set "
                 "run.fidelity=timed");
+  }
+  if (wants(kinds, "memory") && config.flow.control == FlowPolicy::kSpill) {
+    throw Error(ExitCode::kUsage,
+                "--record memory: the traffic of spilled rays is not recorded; set "
+                "flow.control=tile or credits");
   }
 }
 
@@ -55,16 +61,21 @@ Recording::Recording(const RunOptions& options, const Config& config, const Prep
   if (wants(options.record, "rays")) {
     rays_.emplace(folder.stage(kRaysName), identity, config, scene, frame);
   }
+  if (wants(options.record, "memory")) {
+    identity.kind = TraceKind::kMemory;
+    memory_.emplace(folder.stage(kMemoryName), identity);
+  }
 }
 
 RunHooks Recording::hooks() {
   RunHooks hooks;
   if (rays_) hooks.shading = &rays_->recorder;
+  if (memory_) hooks.memory = &memory_->recorder;
   return hooks;
 }
 
 bool Recording::failed() const {
-  return rays_ && rays_->writer.failed();
+  return (rays_ && rays_->writer.failed()) || (memory_ && memory_->writer.failed());
 }
 
 void Recording::finish(bool complete, const StatsTree& stats) {
@@ -74,6 +85,11 @@ void Recording::finish(bool complete, const StatsTree& stats) {
   if (rays_) {
     rays_->recorder.flush();
     rays_->writer.finish(metadata_json(metadata_, TraceKind::kRays));
+  }
+  if (memory_) {
+    memory_->recorder.flush();
+    metadata_.memory = memory_->recorder.layout();
+    memory_->writer.finish(metadata_json(metadata_, TraceKind::kMemory));
   }
 }
 

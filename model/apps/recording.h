@@ -7,6 +7,7 @@
 #include "apps/frame_run.h"
 #include "apps/run_command.h"
 #include "shading/packet_shader.h"
+#include "tracefile/memory_recorder.h"
 #include "tracefile/ray_recorder.h"
 #include "tracefile/trace_metadata.h"
 #include "tracefile/trace_writer.h"
@@ -35,7 +36,14 @@ class Recording final : public FrameGuest {
     RayRecorder recorder;
   };
   TraceMetadata metadata_;
+  struct Memory {
+    Memory(const std::filesystem::path& path, const TraceIdentity& identity)
+        : writer(path, identity), recorder(writer) {}
+    TraceWriter writer;
+    MemoryRecorder recorder;
+  };
   std::optional<Rays> rays_;
+  std::optional<Memory> memory_;
 };
 
 }  // namespace sheaf

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "apps/frame_run.h"
+#include "apps/memory_replay.h"
 #include "apps/parent_death.h"
 #include "base/errors.h"
 #include "config/config_text.h"
@@ -28,16 +29,19 @@ bool shapes_rays(std::string_view key) {
   return std::ranges::any_of(kGroups, [&](std::string_view g) { return key.starts_with(g); });
 }
 
-Config replay_config(const ReplayOptions& options, const TraceMetadata& metadata) {
+/// The recorded configuration with what the user sets over it, if the trace allows that.
+template <typename Forbidden>
+Config replay_config(const ReplayOptions& options, const TraceMetadata& metadata,
+                     const char* recorded_things, const Forbidden& is_forbidden) {
   const BaseConfig base{metadata.config, options.trace.string() + ", recorded configuration"};
   const Config recorded = resolve_config_over(base, std::nullopt, {});
   Config config = resolve_config_over(base, options.config, options.settings);
   for (const std::string& key : changed_keys(recorded, config)) {
-    if (!shapes_rays(key)) continue;
+    if (!is_forbidden(key)) continue;
     throw Error(ExitCode::kUsage,
-                fmt::format("{}: the recorded rays depend on {}; leave it as it was recorded, or "
+                fmt::format("{}: the recorded {} depend on {}; leave it as it was recorded, or "
                             "record a trace with the other value",
-                            options.trace.string(), key));
+                            options.trace.string(), recorded_things, key));
   }
   return config;
 }
@@ -75,7 +79,7 @@ std::filesystem::path scene_file(const ReplayOptions& options, const TraceMetada
 }
 
 int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
-  const Config config = replay_config(options, metadata);
+  const Config config = replay_config(options, metadata, "rays", shapes_rays);
   if (config.run.fidelity == Fidelity::kSampled) {
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: a sampled run replays no trace; set another run.fidelity",
@@ -99,8 +103,10 @@ int replay_command(const ReplayOptions& options) {
   TraceReader reader(options.trace);
   reader.verify();
   const TraceMetadata metadata = read_metadata(reader);
-  reader.require(TraceKind::kRays, "this replay");
-  return replay_rays(options, reader, metadata);
+  if (reader.identity().kind == TraceKind::kRays) return replay_rays(options, reader, metadata);
+  const auto is_forbidden = [](std::string_view key) { return !shapes_memory_only(key); };
+  const Config config = replay_config(options, metadata, "accesses", is_forbidden);
+  return replay_memory(options, config, reader, metadata);
 }
 
 }  // namespace sheaf

@@ -14,6 +14,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> scene;   ///< rays: instead of where it was recorded
   std::optional<std::filesystem::path> config;  ///< over the recorded configuration
   std::vector<std::string> settings;            ///< key=value, in order, over both
+  std::string mode = "elastic";                 ///< memory: or fixed
   std::filesystem::path out;                    ///< empty: result/replay
   std::string cache;                            ///< see tree_folder()
   bool quiet = false;                           ///< no summary on standard output

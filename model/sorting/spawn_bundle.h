@@ -15,6 +15,7 @@ struct SpawnBundle {
   std::vector<Ray> rays;
   std::vector<std::uint8_t> lanes;  ///< of the parent, one per ray
   std::vector<std::size_t> group_begins;
+  AccessCause cause;  ///< while a memory trace is recorded
 
   void clear() {
     rays.clear();

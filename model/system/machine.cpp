@@ -9,18 +9,15 @@
 #include "base/errors.h"
 #include "memory/banked_dram.h"
 #include "memory/fixed_dram.h"
+#include "system/memory_system.h"
 #include "system/pipeline_parts.h"
 
 namespace sheaf {
 namespace {
 
-// Links that another rule keeps from filling up: credits for contexts, MSHRs, or flow control for
-// spawned rays.
+// Links that another rule keeps from filling up: credits for contexts, or flow control for spawned
+// rays.
 constexpr std::size_t kNeverFull = PacketChannel::kUnbounded;
-
-sc_core::sc_time period_of(double frequency) {
-  return {1.0 / frequency, sc_core::SC_SEC};
-}
 
 // From the fastest path through link, unit and link that nothing holds up.
 AnswerTimes answer_times(const Config& config) {
@@ -37,13 +34,14 @@ AnswerTimes answer_times(const Config& config) {
 Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
                  Frame& frame, const RunHooks& hooks)
     : MachineParts(config, plan, scene, frame, hooks),
-      domain_("clock_domain", period_of(config.clock.frequency)) {
+      domain_("clock_domain", clock_period(config)) {
   if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
   build_memory();
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
   flow_.declare_links();
+  if (hooks_.memory != nullptr) record_memory(*hooks_.memory);
 }
 
 Machine::~Machine() = default;

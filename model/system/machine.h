@@ -80,6 +80,7 @@ class Machine : public MachineParts<TimedKind> {
   void build_spill();
   void connect();
   void connect_shaders();
+  void record_memory(MemoryRecorder& recorder);
   void connect_shader_cache();
   [[nodiscard]] std::string describe_stuck() const;
   [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);

@@ -103,6 +103,7 @@ void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& 
 std::span<const CounterGroup> counter_groups() {
   static const std::array kGroups{
       CounterGroup{"run", "What was run", RunValues::infos()},
+      CounterGroup{"replay", "Only of a replayed memory trace", ReplayValues::infos()},
       CounterGroup{"scene", "What the scene holds", SceneValues::infos()},
       CounterGroup{"kdtree", "Its kd-tree", KdTreeValues::infos()},
       CounterGroup{"memory", "Simulated memory", MemoryValues::infos()},

@@ -16,6 +16,11 @@ namespace sheaf {
   X(complete, "1", "1 if the frame is complete, 0 if partial")
 SHEAF_VALUES(RunValues, SHEAF_RUN_VALUES);
 
+#define SHEAF_REPLAY_VALUES(X)                                     \
+  X(mode, "", "How a memory trace was replayed: elastic or fixed") \
+  X(recorded_cycles, "cycles", "Length of the run that it was recorded from")
+SHEAF_VALUES(ReplayValues, SHEAF_REPLAY_VALUES);
+
 #define SHEAF_SCENE_VALUES(X)                             \
   X(triangles, "triangles", "Triangles after instancing") \
   X(vertices, "vertices", "Vertices")                     \

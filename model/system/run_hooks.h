@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shading/shading_source.h"
+#include "tracefile/memory_recorder.h"
 #include "units/primary_source.h"
 
 namespace sheaf {
@@ -13,6 +14,7 @@ namespace sheaf {
 /// What a run may be given from outside: nothing, for a plain one.
 struct RunHooks {
   ShadingSource* shading = nullptr;             ///< instead of computing it from the scene
+  MemoryRecorder* memory = nullptr;             ///< takes down every access; timed runs only
   TileObserver* tiles = nullptr;                ///< told of the tiles as they begin
   std::vector<std::uint32_t> tile_choice = {};  ///< tiles to be simulated; empty: all
 };

@@ -26,7 +26,7 @@ SampledFrame::SampledFrame(const Config& config, const BuildPlan& plan, const Pr
       timed_frame_(config),
       model_(config, scene),
       untimed_(config, plan, scene, frame, {}, &model_),
-      machine_(config, plan, scene, timed_frame_, {nullptr, this, sample_.visits()}) {}
+      machine_(config, plan, scene, timed_frame_, {nullptr, nullptr, this, sample_.visits()}) {}
 
 bool SampledFrame::run(const Monitor& monitor) {
   monitor_ = monitor;

@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracefile/trace_metadata.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
 
 namespace sheaf {
 namespace {
 
 using nlohmann::json;
+
+struct BadMetadata : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -20,6 +29,131 @@ json to_json(const Camera& c) {
           {"forward", to_json(c.forward)},
           {"orthographic", c.orthographic},
           {"half_height", c.half_height}};
+}
+
+json to_json(const MemoryTraceStream& stream) {
+  json caches = json::array();
+  for (const MemoryTraceCache& cache : stream.caches) {
+    caches.push_back({{"name", cache.name}, {"group", cache.group}});
+  }
+  return {{"name", stream.name},
+          {"group", stream.group},
+          {"contexts", stream.contexts},
+          {"turnaround", stream.turnaround},
+          {"retry_interval", stream.retry_interval},
+          {"awaited", stream.awaited},
+          {"caches", caches}};
+}
+
+json to_json(const MemoryOperation& operation) {
+  return {{"cache", operation.cache},    {"kind", to_string(operation.kind)},
+          {"bytes", operation.bytes},    {"write", operation.write},
+          {"calls", operation.calls},    {"port_cycles", operation.port_cycles},
+          {"latency", operation.latency}};
+}
+
+json to_json(const MemoryLayout& layout) {
+  json streams = json::array();
+  for (const MemoryTraceStream& stream : layout.streams) streams.push_back(to_json(stream));
+  json operations = json::array();
+  for (const MemoryOperation& operation : layout.operations) {
+    operations.push_back(to_json(operation));
+  }
+  return {
+      {"streams", streams}, {"operations", operations}, {"answer_latency", layout.answer_latency}};
+}
+
+// What a replay could not cope with is refused here.
+template <typename T>
+T number_from(const json& object, const char* key, std::uint64_t least, std::uint64_t most) {
+  const auto value = object.at(key).get<std::uint64_t>();
+  if (value < least || value > most || object.at(key).is_number_float()) {
+    throw BadMetadata(fmt::format("{} is {}, not {} to {}", key, value, least, most));
+  }
+  return static_cast<T>(value);
+}
+
+constexpr std::uint64_t kMaxStreams = 4096;
+constexpr std::uint64_t kMaxLatency = 1'000'000'000;
+
+DataKind kind_from(const std::string& name) {
+  for (std::size_t i = 0; i < kNumDataKinds; ++i) {
+    if (to_string(static_cast<DataKind>(i)) == name) return static_cast<DataKind>(i);
+  }
+  throw BadMetadata("a kind of data is not known");
+}
+
+// Names become paths in a report.
+std::string name_from(const json& value, const char* key) {
+  auto name = value.at(key).get<std::string>();
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (name.empty() || name.size() > 64 || !std::ranges::all_of(name, is_plain)) {
+    throw BadMetadata(fmt::format("a {} is not made of a-z, 0-9 and _", key));
+  }
+  return name;
+}
+
+MemoryTraceStream stream_from(const json& value) {
+  MemoryTraceStream stream;
+  stream.name = name_from(value, "name");
+  stream.group = name_from(value, "group");
+  stream.contexts = number_from<std::uint32_t>(value, "contexts", 1, 64);
+  stream.turnaround = number_from<Cycles>(value, "turnaround", 0, kMaxLatency);
+  stream.retry_interval = number_from<Cycles>(value, "retry_interval", 1, kMaxLatency);
+  stream.awaited = value.at("awaited").get<bool>();
+  for (const json& cache : value.at("caches")) {
+    stream.caches.push_back({name_from(cache, "name"), name_from(cache, "group")});
+  }
+  return stream;
+}
+
+MemoryOperation operation_from(const json& value) {
+  MemoryOperation operation;
+  operation.cache = number_from<std::uint8_t>(value, "cache", 0, 255);
+  operation.kind = kind_from(value.at("kind").get<std::string>());
+  operation.bytes = number_from<std::uint32_t>(value, "bytes", 0, kMaxFrameBytes);
+  operation.write = value.at("write").get<bool>();
+  operation.calls = value.at("calls").get<bool>();
+  operation.port_cycles = number_from<std::uint32_t>(value, "port_cycles", 1, kMaxLatency);
+  operation.latency = number_from<std::uint32_t>(value, "latency", 0, kMaxLatency);
+  return operation;
+}
+
+// Any unit of a group can do what another one did.
+void check_group(const MemoryLayout& layout, const MemoryTraceStream& stream) {
+  for (const MemoryTraceStream& other : layout.streams) {
+    if (other.group != stream.group) continue;
+    const auto group = [](const MemoryTraceCache& cache) { return cache.group; };
+    if (other.awaited == stream.awaited &&
+        std::ranges::equal(other.caches, stream.caches, {}, group, group)) {
+      continue;
+    }
+    throw BadMetadata("two units of a group are not alike");
+  }
+}
+
+MemoryLayout layout_from(const json& value) {
+  MemoryLayout layout;
+  for (const json& stream : value.at("streams")) layout.streams.push_back(stream_from(stream));
+  if (layout.streams.empty() || layout.streams.size() > kMaxStreams) {
+    throw BadMetadata(fmt::format("there are {} streams", layout.streams.size()));
+  }
+  std::set<std::string> names;
+  for (const MemoryTraceStream& stream : layout.streams) {
+    for (const MemoryTraceCache& cache : stream.caches) {
+      if (!names.insert(stream.name + "." + cache.name).second) {
+        throw BadMetadata("two caches have the same name");
+      }
+    }
+  }
+  for (const MemoryTraceStream& stream : layout.streams) check_group(layout, stream);
+  for (const json& operation : value.at("operations")) {
+    layout.operations.push_back(operation_from(operation));
+  }
+  layout.answer_latency = number_from<Cycles>(value, "answer_latency", 1, kMaxLatency);
+  return layout;
 }
 
 Vec3 vec_from(const json& value) {
@@ -51,11 +185,7 @@ std::string metadata_json(const TraceMetadata& metadata, TraceKind kind) {
   if (kind == TraceKind::kRays) {
     all["camera"] = to_json(metadata.camera);
   } else {
-    json requesters = json::array();
-    for (const TraceMetadata::Requester& r : metadata.requesters) {
-      requesters.push_back({{"name", r.name}, {"cache", r.cache}});
-    }
-    all["requesters"] = requesters;
+    all["memory"] = to_json(metadata.memory);
   }
   return all.dump(1, ' ', false, json::error_handler_t::replace);
 }
@@ -76,12 +206,11 @@ TraceMetadata read_metadata(const TraceReader& reader) {
     if (reader.identity().kind == TraceKind::kRays) {
       metadata.camera = camera_from(all.at("camera"));
     } else {
-      for (const json& r : all.at("requesters")) {
-        metadata.requesters.push_back(
-            {r.at("name").get<std::string>(), r.at("cache").get<std::string>()});
-      }
+      metadata.memory = layout_from(all.at("memory"));
     }
     return metadata;
+  } catch (const BadMetadata& error) {
+    reader.refuse(0, std::string("its metadata cannot be understood: ") + error.what());
   } catch (const json::exception& error) {
     reader.refuse(0, std::string("its metadata cannot be understood: ") + error.what());
   }

@@ -7,16 +7,13 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "tracefile/memory_layout.h"
 #include "tracefile/trace_reader.h"
 
 namespace sheaf {
 
 /// What a trace tells in its metadata frame: a JSON object of the same structure.
 struct TraceMetadata {
-  struct Requester {
-    std::string name;   ///< for example traversal_unit0.node_cache
-    std::string cache;  ///< the group of parameters that describes its cache, as node_cache
-  };
   std::string version;       ///< of the Sheaf that recorded it
   std::string scene_name;    ///< file name
   std::string scene_path;    ///< as it was given
@@ -24,10 +21,10 @@ struct TraceMetadata {
   bool complete = true;      ///< the frame was finished
   std::uint64_t cycles = 0;  ///< length of the recorded run; 0 where time was not simulated
   std::uint64_t num_rays = 0;
-  std::uint32_t width = 0;            ///< of the picture, in pixels
-  std::uint32_t height = 0;           ///< of the picture, in pixels
-  Camera camera;                      ///< rays: of the primary rays, which are not in the trace
-  std::vector<Requester> requesters;  ///< memory: by number
+  std::uint32_t width = 0;   ///< of the picture, in pixels
+  std::uint32_t height = 0;  ///< of the picture, in pixels
+  Camera camera;             ///< rays: of the primary rays, which are not in the trace
+  MemoryLayout memory;       ///< memory: what the records refer to
 };
 
 [[nodiscard]] std::string metadata_json(const TraceMetadata& metadata, TraceKind kind);

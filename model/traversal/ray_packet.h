@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/access_cause.h"
 #include "geometry/ray.h"
 
 namespace sheaf {
@@ -33,6 +34,7 @@ struct alignas(64) RayPacket {
   int size = 0;          ///< lanes of the machine's packet (1..64), active or not
   LaneMask active = 0;   ///< lanes that hold a ray
   LaneMask any_hit = 0;  ///< lanes that need only know whether something is hit (shadow rays)
+  AccessCause cause;     ///< of where it is going, while a memory trace is recorded
 
   void put(int lane, const Ray& ray) {
     const auto i = static_cast<std::size_t>(lane);

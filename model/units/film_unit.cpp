@@ -37,6 +37,11 @@ Cycles FilmUnit::act(Cycles now) {
     position_ = 0;
     bytes_asked_for_ = 0;
     ++stats_.num_batches;
+    recorded_ = 0;
+    if (recorder_ != nullptr) {
+      const AccessCause cause = recorder_->recorder().arrive_at_film();
+      recorder_->begin(0, cause, cause.sent + link_latency_, now);
+    }
   }
   const Cycles next_line = in_lines->next_arrival();
   if (batch_ != nullptr) {
@@ -68,6 +73,10 @@ bool FilmUnit::add_next(Cycles now) {
   const Address first = memory_.pixel(contribution.pixel);
   const Address end = first + film_.bytes_per_pixel();
   const Bytes line = cache_.line_size();
+  if (recorder_ != nullptr && bytes_asked_for_ == 0 && recorded_ != position_ + 1) {
+    recorded_ = position_ + 1;
+    record_addition(first, now);
+  }
   for (Address at = first + bytes_asked_for_; at != end; at = first + bytes_asked_for_) {
     const Bytes bytes = std::min(end, (cache_.line_of(at) + 1) * line) - at;
     if (cache_.modify(at, bytes, DataKind::kPixel, 0, now) == PrivateCache::Result::kNoMshr) {
@@ -83,8 +92,18 @@ bool FilmUnit::add_next(Cycles now) {
     batch_->clear();
     batches_.release(batch_);
     batch_ = nullptr;
+    if (recorder_ != nullptr) recorder_->end(0, now + 1);
   }
   return true;
+}
+
+void FilmUnit::record_addition(Address pixel, Cycles now) {
+  const std::uint32_t operation = recorder_->operation(0, [&] {
+    return MemoryOperation{.kind = DataKind::kPixel,
+                           .bytes = static_cast<std::uint32_t>(film_.bytes_per_pixel()),
+                           .write = true};
+  });
+  recorder_->step(0, operation, pixel, position_ + 1 == batch_->size(), now);
 }
 
 Cycles FilmUnit::flush_next(Cycles now) {

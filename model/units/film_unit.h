@@ -12,6 +12,7 @@
 #include "kdtree/memory_map.h"
 #include "memory/private_cache.h"
 #include "stats/stall_account.h"
+#include "tracefile/memory_recorder.h"
 #include "units/flow_control.h"
 #include "units/shader_unit.h"
 
@@ -37,6 +38,12 @@ class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
 
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Has all its additions taken down; batches come `link_latency` after they are sent.
+  void record_to(StreamRecorder& recorder, Cycles link_latency) {
+    recorder_ = &recorder;
+    link_latency_ = link_latency;
+  }
+
   [[nodiscard]] const FilmStats& stats() const { return stats_; }
   [[nodiscard]] const PrivateCache& cache() const { return cache_; }
   [[nodiscard]] PrivateCache& cache() { return cache_; }
@@ -48,6 +55,7 @@ class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
   Cycles act(Cycles now) override;
   void accept_lines(Cycles now);
   bool add_next(Cycles now);
+  void record_addition(Address pixel, Cycles now);
   Cycles flush_next(Cycles now);
 
   Film& film_;
@@ -64,6 +72,9 @@ class FilmUnit final : public sc_core::sc_module, public SteppingAgent {
   bool flushing_ = false;
   FilmStats stats_;
   StallAccount stalls_;
+  StreamRecorder* recorder_ = nullptr;
+  std::size_t recorded_ = 0;  ///< contributions of the batch that have been taken down
+  Cycles link_latency_ = 0;
 };
 
 }  // namespace sheaf

@@ -41,6 +41,7 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
   while (has_free_context() && jobs_.read(job, now)) {
     const int number = take_context();
     contexts_[static_cast<std::size_t>(number)] = {job, 0, Phase::kList};
+    if (recorder_ != nullptr) record_begin(number, now);
     schedule(number, now);
   }
   // Jobs that have arrived but find no context wait until ready() frees one.
@@ -70,6 +71,7 @@ bool IntersectionUnit::ready(int number, Cycles now) {
       }
       // The link has room for every context of the traversal unit.
       out_done[context.job.unit]->write_ahead({context.job.context}, now, context.job.context);
+      if (recorder_ != nullptr) recorder_->end(number, now);
       free_context(number);
       look_again();
       inbox_.set_next(std::min(inbox_.next(), std::max(jobs_.next_arrival(), now + 1)));
@@ -94,6 +96,7 @@ void IntersectionUnit::issue(int number, Cycles now) {
   const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
   Cycles port_cycles = 0;
   bool complete = false;
+  if (recorder_ != nullptr && !fetcher_.has_begun(number)) record_step(number, now);
   if (context.phase == Phase::kList) {
     complete = fetch(number, scene_.memory.leaf_entry(first),
                      context.job.num_tests * MemoryMap::kLeafEntrySize, DataKind::kLeafList,
@@ -113,6 +116,37 @@ void IntersectionUnit::issue(int number, Cycles now) {
   } else {
     occupy(number, slots_per_step_, cache_.hit_latency(), port_cycles, now);
   }
+}
+
+void IntersectionUnit::record_begin(int number, Cycles now) {
+  const LeafJob& job = contexts_[static_cast<std::size_t>(number)].job;
+  // Traversal units record to the streams of their own numbers.
+  const AccessCause cause = recorder_->recorder().stream(job.unit).cause(job.context);
+  recorder_->begin(number, cause, cause.sent + link_latency_, now);
+}
+
+void IntersectionUnit::record_step(int number, Cycles now) {
+  const Context& context = contexts_[static_cast<std::size_t>(number)];
+  const std::uint32_t first = scene_.tree.nodes[context.job.leaf].first();
+  if (context.phase == Phase::kList) {
+    const std::uint32_t count = context.job.num_tests;
+    const std::uint32_t operation = recorder_->operation(count, [&] {
+      return MemoryOperation{
+          .kind = DataKind::kLeafList,
+          .bytes = static_cast<std::uint32_t>(count * MemoryMap::kLeafEntrySize)};
+    });
+    recorder_->step(number, operation, scene_.memory.leaf_entry(first), false, now);
+    return;
+  }
+  const std::uint32_t operation = recorder_->operation(0, [&] {
+    return MemoryOperation{.kind = DataKind::kTriangle,
+                           .bytes = MemoryMap::kTriangleSize,
+                           .port_cycles = port_cycles(slots_per_step_),
+                           .latency = step_latency()};
+  });
+  const std::uint32_t triangle = scene_.tree.leaf_triangles[first + context.tested];
+  recorder_->step(number, operation, scene_.memory.triangle(triangle),
+                  context.tested + 1 == context.job.num_tests, now);
 }
 
 std::string IntersectionUnit::stuck_reason() const {

@@ -32,6 +32,12 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   }
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Has all its steps taken down; jobs come `link_latency` after they are sent.
+  void record_to(StreamRecorder& recorder, Cycles link_latency) {
+    recorder_ = &recorder;
+    link_latency_ = link_latency;
+  }
+
  private:
   friend class MultiContextUnit<IntersectionUnit>;
   enum class Phase : std::uint8_t { kList, kListIssued, kTriangle, kTriangleIssued };
@@ -47,6 +53,8 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
+  void record_begin(int context, Cycles now);
+  void record_step(int context, Cycles now);
   bool fetch(int context, Address first, Bytes bytes, DataKind kind, Cycles& port_cycles,
              Cycles now);
 
@@ -58,6 +66,8 @@ class IntersectionUnit final : public MultiContextUnit<IntersectionUnit> {
   std::vector<Context> contexts_;
   Lookahead jobs_ahead_;
   Lookahead lines_ahead_;
+  StreamRecorder* recorder_ = nullptr;
+  Cycles link_latency_ = 0;
 };
 
 }  // namespace sheaf

@@ -13,6 +13,7 @@ namespace sheaf {
 struct LineFetch {
   std::uint32_t next = 0;     ///< lines before this one have been asked for
   std::uint32_t pending = 0;  ///< of those, still on their way
+  bool begun = false;         ///< a look-up has been made
 };
 
 /// Steps of a unit's contexts that need several lines of one private cache.
@@ -32,6 +33,7 @@ class LineFetcher {
                 Cycles now) {
     LineFetch& progress = progress_[static_cast<std::size_t>(context)];
     Outcome outcome;
+    progress.begun = true;
     while (progress.next < num_lines) {
       ++outcome.port_cycles;
       const auto result = cache_.read(line(progress.next), kind, context, now);
@@ -50,15 +52,22 @@ class LineFetcher {
     return outcome;
   }
 
+  /// Whether the context's step has been issued before and still misses lines.
+  [[nodiscard]] bool has_begun(int context) const {
+    return progress_[static_cast<std::size_t>(context)].begun;
+  }
+
   /// The same for a step that needs one line.
   bool fetch_one(int context, std::uint64_t line, DataKind kind, Cycles now) {
     LineFetch& progress = progress_[static_cast<std::size_t>(context)];
     if (progress.next != 0) {  // it has come
-      progress.next = 0;
+      progress = {};
       return true;
     }
     const auto result = cache_.read(line, kind, context, now);
-    if (result == PrivateCache::Result::kPending) progress = {1, 1};
+    if (result == PrivateCache::Result::kPending) progress = {1, 1, true};
+    if (result == PrivateCache::Result::kNoMshr) progress.begun = true;
+    if (result == PrivateCache::Result::kHit) progress.begun = false;
     return result == PrivateCache::Result::kHit;
   }
 

@@ -92,6 +92,14 @@ class MultiContextUnit : public sc_core::sc_module, public Agent {
     free_ = spec.contexts == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << spec.contexts) - 1;
   }
 
+  /// What the issue port is taken for by a step of so many slots.
+  [[nodiscard]] std::uint32_t port_cycles(std::uint32_t slots) const {
+    return static_cast<std::uint32_t>(slots * spec_.initiation_interval);
+  }
+  [[nodiscard]] std::uint32_t step_latency() const {
+    return static_cast<std::uint32_t>(spec_.latency);
+  }
+
   // Contexts, held from take_context() until free_context().
   [[nodiscard]] bool has_free_context() const { return free_ != 0; }
   int take_context() {

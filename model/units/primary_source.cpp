@@ -57,6 +57,7 @@ bool PrimarySource::prepare_packet(Cycles now) {
     if (!tile_begun_) {
       tile_begun_ = true;
       ++stats_.num_tiles;
+      if (recorder_ != nullptr && flow_.by_tile()) explain(recorder_->begin_epoch(now), now);
     }
     if (!order_.next_run(run)) {
       if (flow_.by_tile() && flow_.live(now) != 0 && !order_.is_last()) {
@@ -79,6 +80,12 @@ bool PrimarySource::prepare_packet(Cycles now) {
   return true;
 }
 
+// What makes the next packets possible, from this cycle on.
+void PrimarySource::explain(const AccessCause& cause, Cycles now) {
+  cause_ = cause;
+  unhindered_ = now;
+}
+
 Cycles PrimarySource::act(Cycles now) {
   if (now < next_packet_) return next_packet_;
   if (!prepare_packet(now)) {
@@ -89,10 +96,13 @@ Cycles PrimarySource::act(Cycles now) {
   }
   if (!flow_.admits(reservation_, now)) {
     flow_.set_source(FlowControl::Source::kNoCredit, now);
+    had_no_credit_ = true;
     stalls_.switch_to(StallCause::kBlockedOutput, now);
     return flow_.next_notice(now);  // woken when rays have retired
   }
   flow_.set_source(FlowControl::Source::kIssuing, now);
+  if (recorder_ != nullptr && had_no_credit_) explain(recorder_->last_retired(), now);
+  had_no_credit_ = false;
   if (out_packets->num_free(now) == 0) {
     out_packets->notify_when_free(inbox_);
     stalls_.switch_to(StallCause::kBlockedOutput, now);
@@ -106,6 +116,9 @@ Cycles PrimarySource::act(Cycles now) {
   ++stats_.num_packets;
   stats_.num_rays += rays;
   flow_.admit(rays, reservation_, now);
+  packet_->cause = cause_;
+  packet_->cause.sent = unhindered_ + way_;
+  unhindered_ += spec_.interval;
   out_packets->nb_write(packet_, now);
   packet_ = nullptr;
   next_packet_ = now + spec_.interval;

@@ -11,6 +11,7 @@
 #include "scene/tile_order.h"
 #include "stats/counters.h"
 #include "stats/stall_account.h"
+#include "tracefile/memory_recorder.h"
 #include "traversal/packet_pool.h"
 #include "units/flow_control.h"
 #include "units/ray_counts.h"
@@ -49,6 +50,12 @@ class PrimarySource final : public sc_core::sc_module, public SteppingAgent {
 
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Packets carry their cause; they reach a traversal unit `way` later at the earliest.
+  void record_to(MemoryRecorder& recorder, Cycles way) {
+    recorder_ = &recorder;
+    way_ = way;
+  }
+
   [[nodiscard]] const PrimarySourceStats& stats() const { return stats_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
@@ -61,6 +68,7 @@ class PrimarySource final : public sc_core::sc_module, public SteppingAgent {
   void end_of_elaboration() override;
   Cycles act(Cycles now) override;
   bool prepare_packet(Cycles now);
+  void explain(const AccessCause& cause, Cycles now);
 
   const PrimarySourceSpec spec_;
   const ImageSpec image_;
@@ -78,6 +86,11 @@ class PrimarySource final : public sc_core::sc_module, public SteppingAgent {
   std::uint32_t num_admitted_ = 0;  ///< packets of the current tile
   PrimarySourceStats stats_;
   StallAccount stalls_;
+  MemoryRecorder* recorder_ = nullptr;
+  Cycles way_ = 0;
+  AccessCause cause_;      ///< of the packets made at the moment
+  Cycles unhindered_ = 0;  ///< when the next could leave if the link were never full
+  bool had_no_credit_ = false;
 };
 
 }  // namespace sheaf

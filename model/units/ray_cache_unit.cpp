@@ -64,9 +64,11 @@ bool RayCacheUnit::insert_rays(Cycles now) {
     if (bundle_ == nullptr) {
       if (!in_bundles->has_arrived(now)) break;
       bundle_ = in_bundles->read(now);
+      arrived_ = bundle_->cause;
       position_ = 0;
     }
     sorter_->insert(bundle_->rays[position_], now, departures_);
+    explain_departures(arrived_, now);
     worked = true;
     --room;
     if (++position_ == bundle_->rays.size()) {
@@ -81,6 +83,7 @@ bool RayCacheUnit::insert_rays(Cycles now) {
 bool RayCacheUnit::time_out(Cycles now) {
   if (next_time_out() > now) return false;
   sorter_->time_out(now - spec_.timeout, now, departures_);
+  explain_departures(arrived_, now);
   return true;
 }
 
@@ -96,7 +99,16 @@ bool RayCacheUnit::sweep(Cycles now) {
   }
   if (flow_.source(now) == FlowControl::Source::kIssuing) return false;
   sorter_->sweep(sweep_reason(now), now, departures_);
+  if (recorder_ != nullptr) explain_departures(recorder_->begin_epoch(now), now);
   return true;
+}
+
+void RayCacheUnit::explain_departures(const AccessCause& cause, Cycles now) {
+  if (recorder_ == nullptr) return;
+  for (RayPacket* packet : departures_) {
+    packet->cause = cause;
+    packet->cause.sent = now + way_;
+  }
 }
 
 Departure RayCacheUnit::sweep_reason(Cycles now) const {

@@ -12,6 +12,7 @@
 #include "sorting/ray_sorter.h"
 #include "sorting/spawn_bundle.h"
 #include "stats/stall_account.h"
+#include "tracefile/memory_recorder.h"
 #include "units/flow_control.h"
 
 namespace sheaf {
@@ -30,6 +31,12 @@ class RayCacheUnit final : public sc_core::sc_module, public SteppingAgent {
 
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Packets that leave carry their cause; they reach a traversal unit `way` later at the earliest.
+  void record_to(MemoryRecorder& recorder, Cycles way) {
+    recorder_ = &recorder;
+    way_ = way;
+  }
+
   [[nodiscard]] const RaySorter& sorter() const { return *sorter_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
@@ -41,6 +48,7 @@ class RayCacheUnit final : public sc_core::sc_module, public SteppingAgent {
   bool insert_rays(Cycles now);
   bool time_out(Cycles now);
   bool sweep(Cycles now);
+  void explain_departures(const AccessCause& cause, Cycles now);
   [[nodiscard]] Departure sweep_reason(Cycles now) const;
   [[nodiscard]] Cycles next_time_out() const;
 
@@ -51,9 +59,12 @@ class RayCacheUnit final : public sc_core::sc_module, public SteppingAgent {
   Inbox inbox_;
   SpawnBundle* bundle_ = nullptr;  ///< being taken in
   std::size_t position_ = 0;
+  AccessCause arrived_;  ///< cause of the bundle taken in last
   std::vector<RayPacket*> departures_;
   std::size_t num_sent_ = 0;  ///< of departures_
   StallAccount stalls_;
+  MemoryRecorder* recorder_ = nullptr;
+  Cycles way_ = 0;
 };
 
 }  // namespace sheaf

@@ -60,7 +60,9 @@ bool ShaderCacheUnit::accept_packet(Cycles now) {
   if (!inputs_.read(packet, now)) return false;
   const auto rays = static_cast<Cycles>(std::popcount(packet->active));
   busy_until_ = now + (rays + spec_.rays_per_cycle - 1) / spec_.rays_per_cycle;
+  const AccessCause cause = packet->cause;
   sorter_.insert(packet, departures_);
+  explain_departures(cause, now);
   return true;
 }
 
@@ -68,7 +70,16 @@ bool ShaderCacheUnit::sweep(Cycles now) {
   if (sorter_.num_waiting() == 0 || !flow_.is_quiet(now)) return false;
   if (flow_.source(now) == FlowControl::Source::kIssuing) return false;
   sorter_.sweep(departures_);
+  if (recorder_ != nullptr) explain_departures(recorder_->begin_epoch(now), now);
   return true;
+}
+
+void ShaderCacheUnit::explain_departures(const AccessCause& cause, Cycles now) {
+  if (recorder_ == nullptr) return;
+  for (RayPacket* packet : departures_) {
+    packet->cause = cause;
+    packet->cause.sent = now;
+  }
 }
 
 std::string ShaderCacheUnit::stuck_reason() const {

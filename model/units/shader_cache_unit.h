@@ -9,6 +9,7 @@
 #include "channels/timed_channel.h"
 #include "sorting/shading_sorter.h"
 #include "stats/stall_account.h"
+#include "tracefile/memory_recorder.h"
 #include "units/flow_control.h"
 #include "units/link_choice.h"
 
@@ -27,6 +28,9 @@ class ShaderCacheUnit final : public sc_core::sc_module, public SteppingAgent {
 
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Packets that leave carry their cause.
+  void record_to(MemoryRecorder& recorder) { recorder_ = &recorder; }
+
   [[nodiscard]] const ShadingSorter& sorter() const { return sorter_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
@@ -37,6 +41,7 @@ class ShaderCacheUnit final : public sc_core::sc_module, public SteppingAgent {
   bool send_departures(Cycles now);
   bool accept_packet(Cycles now);
   bool sweep(Cycles now);
+  void explain_departures(const AccessCause& cause, Cycles now);
 
   const ShaderCacheSpec spec_;
   ShadingSorter sorter_;
@@ -48,6 +53,7 @@ class ShaderCacheUnit final : public sc_core::sc_module, public SteppingAgent {
   std::size_t num_sent_ = 0;  ///< of departures_
   Cycles busy_until_ = 0;     ///< taking a packet's rays in
   StallAccount stalls_;
+  MemoryRecorder* recorder_ = nullptr;
 };
 
 }  // namespace sheaf

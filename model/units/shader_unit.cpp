@@ -8,6 +8,12 @@
 
 namespace sheaf {
 
+DataKind ShaderUnit::kind_of(Phase phase) {
+  return phase == Phase::kIndices  ? DataKind::kTriangle
+         : phase == Phase::kTexels ? DataKind::kTexture
+                                   : DataKind::kAttribute;
+}
+
 ShaderUnit::ShaderUnit(const sc_core::sc_module_name& name, const UnitSpec& spec, int packet_size,
                        const CacheSpec& attribute_cache, const CacheSpec* texture_cache,
                        const ShadedScene& scene, ClockDomain& domain, TimedOut<LineRequest>& memory,
@@ -61,6 +67,9 @@ void ShaderUnit::accept_packet(RayPacket* packet, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   context.packet = packet;
   scene_.shader.shade(*packet, context.shading);
+  if (recorder_ != nullptr) {
+    recorder_->begin(number, packet->cause, packet->cause.sent + link_latency_, now);
+  }
   begin_phase(number, Phase::kIndices);
   schedule(number, now);
 }
@@ -77,35 +86,42 @@ void ShaderUnit::begin_phase(int number, Phase phase) {
   }
 }
 
+// Lines in ascending order, each once.
 void ShaderUnit::list_lines(Context& context) {
-  const MemoryMap& memory = scene_.memory;
+  const PrivateCache& cache = context.phase == Phase::kTexels ? *textures_ : attributes_;
   auto& lines = context.lines;
+  list_addresses(context, lines);
+  for (std::uint64_t& line : lines) line = cache.line_of(line);
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+}
+
+// Of what the phase reads; the line that an address lies in is all that is fetched for it.
+void ShaderUnit::list_addresses(const Context& context, std::vector<Address>& addresses) const {
+  const MemoryMap& memory = scene_.memory;
   switch (context.phase) {
     case Phase::kIndices:
       for (const std::uint32_t triangle : context.shading.triangles) {
-        lines.push_back(attributes_.line_of(memory.triangle_indices(triangle)));
+        addresses.push_back(memory.triangle_indices(triangle));
       }
       break;
     case Phase::kAttributes:
       for (const std::uint32_t triangle : context.shading.triangles) {
         for (const std::uint32_t vertex : scene_.scene.triangles[triangle]) {
-          lines.push_back(attributes_.line_of(memory.vertex(vertex)));
+          addresses.push_back(memory.vertex(vertex));
         }
-        lines.push_back(
-            attributes_.line_of(memory.material(scene_.scene.triangle_material[triangle])));
+        addresses.push_back(memory.material(scene_.scene.triangle_material[triangle]));
       }
       break;
     case Phase::kTexels:
       for (const TexelAccess& texel : context.shading.texels) {
-        lines.push_back(textures_->line_of(memory.texel(texel.texture, texel.x, texel.y)));
+        addresses.push_back(memory.texel(texel.texture, texel.x, texel.y));
       }
       break;
     case Phase::kCompute:
     case Phase::kOutput:
-      return;
+      break;
   }
-  std::sort(lines.begin(), lines.end());
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
 }
 
 bool ShaderUnit::ready(int number, Cycles now) {
@@ -124,15 +140,15 @@ void ShaderUnit::issue(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   if (context.phase == Phase::kCompute) {
     context.issued = true;
+    if (recorder_ != nullptr) record_compute(number, now);
     const bool only_post = context.shading.triangles.empty();
     occupy(number, only_post ? 1 : slots_per_step_, 0, only_post ? slots_per_step_ : 0, now);
     return;
   }
   const bool texels = context.phase == Phase::kTexels;
   LineFetcher& fetcher = texels ? *texture_fetcher_ : attribute_fetcher_;
-  const DataKind kind = context.phase == Phase::kIndices ? DataKind::kTriangle
-                        : texels                         ? DataKind::kTexture
-                                                         : DataKind::kAttribute;
+  if (recorder_ != nullptr && !fetcher.has_begun(number)) record_fetch(number, now);
+  const DataKind kind = kind_of(context.phase);
   const auto line = [&](std::uint32_t i) { return context.lines[i]; };
   const auto outcome =
       fetcher.fetch(number, static_cast<std::uint32_t>(context.lines.size()), kind, line, now);
@@ -144,6 +160,38 @@ void ShaderUnit::issue(int number, Cycles now) {
     park(number, now);
     occupy_missed(outcome.port_cycles, now);
   }
+}
+
+void ShaderUnit::record_fetch(int number, Cycles now) {
+  const Context& context = contexts_[static_cast<std::size_t>(number)];
+  const bool texels = context.phase == Phase::kTexels;
+  // What an address of the phase names, no more than its line: see list_addresses().
+  const auto phase = static_cast<std::size_t>(context.phase);
+  const std::uint32_t operation = recorder_->operation(phase, [&] {
+    return MemoryOperation{.cache = static_cast<std::uint8_t>(texels ? 1 : 0),
+                           .kind = kind_of(context.phase),
+                           .bytes = MemoryMap::kTexelSize};
+  });
+  std::vector<Address> addresses;
+  list_addresses(context, addresses);
+  std::sort(addresses.begin(), addresses.end());
+  addresses.erase(std::unique(addresses.begin(), addresses.end()), addresses.end());
+  recorder_->step(number, operation, addresses[0], false, now);
+  for (std::size_t i = 1; i < addresses.size(); ++i) {
+    recorder_->also(number, operation, addresses[i], now);
+  }
+}
+
+void ShaderUnit::record_compute(int number, Cycles now) {
+  const bool only_post = contexts_[static_cast<std::size_t>(number)].shading.triangles.empty();
+  const std::size_t key = static_cast<std::size_t>(Phase::kCompute) + (only_post ? 1 : 0);
+  const std::uint32_t operation = recorder_->operation(key, [&] {
+    const std::uint32_t whole = port_cycles(slots_per_step_);
+    return MemoryOperation{
+        .port_cycles = only_post ? std::max(port_cycles(1), slots_per_step_) : whole,
+        .latency = step_latency()};
+  });
+  recorder_->step(number, operation, 0, true, now);
 }
 
 void ShaderUnit::prepare_output(Context& context) {
@@ -168,6 +216,10 @@ void ShaderUnit::send_output(int number, Cycles now) {
       return;
     }
     context.batch = nullptr;
+    if (recorder_ != nullptr) {
+      recorder_->set_out(number, now);
+      recorder_->recorder().send_to_film(recorder_->cause(number));
+    }
   }
   if (context.bundle != nullptr && out_bundles->num_free(now) == 0) {
     out_bundles->notify_when_free(inbox_);
@@ -182,10 +234,17 @@ void ShaderUnit::send_output(int number, Cycles now) {
       reserved += scene_.flow.worst_case(ray.tag);
     }
     spawned = context.bundle->rays.size();
+    if (recorder_ != nullptr) {
+      recorder_->set_out(number, now);
+      context.bundle->cause = recorder_->cause(number);
+    }
     out_bundles->nb_write(context.bundle, now);
     context.bundle = nullptr;
   }
   unblock(number);
+  if (recorder_ != nullptr) {
+    recorder_->recorder().retire(recorder_->end(number, now));
+  }
   look_again();
   retire(context, spawned, reserved, now);
   free_context(number);

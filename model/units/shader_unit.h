@@ -8,6 +8,7 @@
 #include "base/object_pool.h"
 #include "kdtree/memory_map.h"
 #include "shading/packet_shader.h"
+#include "tracefile/memory_recorder.h"
 #include "traversal/packet_pool.h"
 #include "units/flow_control.h"
 #include "units/line_fetcher.h"
@@ -65,6 +66,12 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   [[nodiscard]] PrivateCache* texture_cache() { return textures_ ? &*textures_ : nullptr; }
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Has all its steps taken down; packets come `link_latency` after they are sent.
+  void record_to(StreamRecorder& recorder, Cycles link_latency) {
+    recorder_ = &recorder;
+    link_latency_ = link_latency;
+  }
+
  private:
   friend class MultiContextUnit<ShaderUnit>;
   enum class Phase : std::uint8_t { kIndices, kAttributes, kTexels, kCompute, kOutput };
@@ -78,6 +85,7 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
     SpawnBundle* bundle = nullptr;  ///< still to be sent
   };
 
+  [[nodiscard]] static DataKind kind_of(Phase phase);
   void end_of_elaboration() override;
   Cycles accept_inputs(Cycles now);
   void accept_packet(RayPacket* packet, Cycles now);
@@ -87,6 +95,9 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   [[nodiscard]] static Cycles earliest_input() { return 0; }
   void begin_phase(int number, Phase phase);
   void list_lines(Context& context);
+  void list_addresses(const Context& context, std::vector<Address>& addresses) const;
+  void record_fetch(int number, Cycles now);
+  void record_compute(int number, Cycles now);
   void prepare_output(Context& context);
   void send_output(int context, Cycles now);
   void retire(Context& context, std::uint64_t spawned, std::uint64_t reserved_after, Cycles now);
@@ -98,6 +109,8 @@ class ShaderUnit final : public MultiContextUnit<ShaderUnit> {
   std::optional<PrivateCache> textures_;
   std::optional<LineFetcher> texture_fetcher_;
   std::vector<Context> contexts_;
+  StreamRecorder* recorder_ = nullptr;
+  Cycles link_latency_ = 0;
 };
 
 }  // namespace sheaf

@@ -34,6 +34,10 @@ Cycles SpawnRouter::act(Cycles now) {
     ++stats_.num_bundles;
     stats_.num_rays += bundle->rays.size();
     split_by_kind(*bundle, packets_, waiting_);
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      waiting_[i]->cause = bundle->cause;
+      waiting_[i]->cause.sent = now + i + way_;
+    }
     std::reverse(waiting_.begin(), waiting_.end());
     bundle->clear();
     bundles_.release(bundle);

@@ -32,6 +32,9 @@ class SpawnRouter final : public sc_core::sc_module, public SteppingAgent {
 
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Packets carry their cause; they reach a traversal unit `way` later at the earliest.
+  void record_way(Cycles way) { way_ = way; }
+
   [[nodiscard]] const SpawnRouterStats& stats() const { return stats_; }
   [[nodiscard]] const StallAccount& stalls() const { return stalls_; }
   void finish(Cycles end) { stalls_.finish(end); }
@@ -46,6 +49,7 @@ class SpawnRouter final : public sc_core::sc_module, public SteppingAgent {
   std::vector<RayPacket*> waiting_;  ///< in reverse order
   SpawnRouterStats stats_;
   StallAccount stalls_;
+  Cycles way_ = 0;
 };
 
 }  // namespace sheaf

@@ -86,6 +86,7 @@ void TraversalUnit::accept_packet(RayPacket* packet, Cycles now) {
   trace_packet(scene_.scheme, scene_.tree, scene_.triangles, *packet, &context.log,
                per_lane ? &lanes : nullptr, counts);
   if (per_lane) heat_->add(*packet, lanes);
+  if (recorder_ != nullptr) recorder_->begin(number, packet->cause, packet->cause.sent, now);
   context.step = context.log.data();
   context.end = context.step + context.log.size();
   schedule(number, now);
@@ -134,9 +135,17 @@ void TraversalUnit::issue(int number, Cycles now) {
   Context& context = contexts_[static_cast<std::size_t>(number)];
   if (context.phase == Phase::kSetup) {
     context.phase = Phase::kSetupIssued;
+    if (recorder_ != nullptr) {
+      const std::uint32_t operation = recorder_->operation(0, [&] {
+        return MemoryOperation{.port_cycles = port_cycles(slots_per_step_),
+                               .latency = step_latency()};
+      });
+      recorder_->step(number, operation, 0, context.step == context.end, now);
+    }
     occupy(number, slots_per_step_, 0, 0, now);
     return;
   }
+  if (recorder_ != nullptr && !fetcher_.has_begun(number)) record_step(number, now);
   const std::uint64_t line = cache_.line_of(scene_.memory.node(context.step->node));
   if (fetcher_.fetch_one(number, line, DataKind::kNode, now)) {
     context.phase = Phase::kStepIssued;
@@ -156,6 +165,7 @@ void TraversalUnit::send_job(int number, Cycles now) {
       unblock(number);
       look_again();
       await(number, now + times_.leaf_fixed + step.num_tests * times_.leaf_test);
+      if (recorder_ != nullptr) recorder_->set_out(number, now);
       return;
     case Sent::kNo:
       block(number);
@@ -174,6 +184,9 @@ void TraversalUnit::send_packet(int number, Cycles now) {
       look_again();
       free_context(number);
       out_free->write_ahead({number_}, now, number_);
+      if (recorder_ != nullptr) {
+        packet->cause = recorder_->end(number, now);
+      }
       return;
     case Sent::kNo:
       block(number);
@@ -182,6 +195,22 @@ void TraversalUnit::send_packet(int number, Cycles now) {
       hold_back(number, now);
       return;
   }
+}
+
+void TraversalUnit::record_step(int number, Cycles now) {
+  const Context& context = contexts_[static_cast<std::size_t>(number)];
+  const TraceStep& step = *context.step;
+  const std::uint32_t slots = step_slots(scene_.scheme, step, slots_per_step_);
+  const bool calls = step.num_tests != 0;
+  const std::uint32_t operation = recorder_->operation(2 * slots + (calls ? 1 : 0), [&] {
+    return MemoryOperation{.kind = DataKind::kNode,
+                           .bytes = MemoryMap::kNodeSize,
+                           .calls = calls,
+                           .port_cycles = port_cycles(slots),
+                           .latency = step_latency()};
+  });
+  recorder_->step(number, operation, scene_.memory.node(step.node), context.step + 1 == context.end,
+                  now);
 }
 
 std::string TraversalUnit::stuck_reason() const {

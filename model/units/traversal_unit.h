@@ -6,6 +6,7 @@
 
 #include "kdtree/kd_tree.h"
 #include "kdtree/memory_map.h"
+#include "tracefile/memory_recorder.h"
 #include "traversal/trace.h"
 #include "units/line_fetcher.h"
 #include "units/link_choice.h"
@@ -68,6 +69,9 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   }
   [[nodiscard]] std::string stuck_reason() const override;
 
+  /// Has all its steps taken down.
+  void record_to(StreamRecorder& recorder) { recorder_ = &recorder; }
+
  private:
   friend class MultiContextUnit<TraversalUnit>;
   enum class Phase : std::uint8_t {
@@ -94,6 +98,7 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   bool ready(int context, Cycles now);
   void issue(int context, Cycles now);
   [[nodiscard]] Cycles earliest_input();
+  void record_step(int context, Cycles now);
   bool begin_step(int context, Cycles now);
   void send_job(int context, Cycles now);
   void send_packet(int context, Cycles now);
@@ -112,6 +117,7 @@ class TraversalUnit final : public MultiContextUnit<TraversalUnit> {
   Lookahead lines_ahead_;
   RoundRobin<LeafJob> jobs_;
   RoundRobin<RayPacket*> packets_;
+  StreamRecorder* recorder_ = nullptr;
 };
 
 }  // namespace sheaf

@@ -58,15 +58,18 @@ TEST_P(RayReplay, UnderItsOwnConfigurationIsTheRecordedRun) {
             read_bytes(scratch_ / "recorded/stats.json"));
 }
 
-TEST_P(RayReplay, UnderEveryHeuristicAndThreeMemoriesIsALiveRun) {
-  const std::vector<Settings> memories{
-      {},
-      {"dram.latency=700", "dram.bytes_per_cycle=2", "l2.mode=absent"},
-      {"node_cache.mode=absent", "texture_cache.capacity=1KiB", "attribute_cache.line=128",
-       "l2.line=256", "film.format=half"}};
+const std::vector<const char*> kHeuristics{"none",     "dir",  "mdir(24)", "fastpos",
+                                           "pos(1.0)", "opos", "ray5d(1)", "grid(4)"};
+const std::vector<Settings> kMemories{
+    {},
+    {"dram.latency=700", "dram.bytes_per_cycle=2", "l2.mode=absent"},
+    {"node_cache.mode=absent", "texture_cache.capacity=1KiB", "attribute_cache.line=128",
+     "l2.line=256", "film.format=half"}};
+
+TEST_P(RayReplay, UnderEveryHeuristicIsALiveRun) {
   std::size_t next_memory = 0;
-  for (const char* heuristic : {"none", "dir", "mdir(24)", "fastpos", "pos(1.0)", "opos"}) {
-    Settings settings = memories[next_memory++ % memories.size()];
+  for (const char* heuristic : kHeuristics) {
+    Settings settings = kMemories[next_memory++ % kMemories.size()];
     settings.push_back(std::string("ray_cache.heuristic=") + heuristic);
     expect_like_live(settings);
   }
@@ -84,6 +87,15 @@ INSTANTIATE_TEST_SUITE_P(Committed, RayReplay, testing::ValuesIn(kCommittedScene
                          [](const auto& scene) { return std::string(scene.param); });
 
 class RayTrace : public RayReplay {};
+
+TEST_P(RayTrace, UnderEveryHeuristicOnEachOfThreeMemoriesIsALiveRun) {
+  for (const char* heuristic : kHeuristics) {
+    for (Settings settings : kMemories) {
+      settings.push_back(std::string("ray_cache.heuristic=") + heuristic);
+      expect_like_live(settings);
+    }
+  }
+}
 
 TEST_P(RayTrace, IsRefusedOnAnotherScene) {
   const CommandResult result = replay({}, {"--scene", committed_scene("newtree").string()});

@@ -156,6 +156,24 @@ def optimize(
 
 
 @app.command(epilog=_EXITS)
+def trace(
+    file: Annotated[Path, typer.Argument(metavar="TRACE", help="What sheaf run --record wrote")],
+    parquet: Annotated[
+        Path | None, typer.Option("--parquet", help="Folder for its tables as Parquet files")
+    ] = None,
+) -> None:
+    """Tell what a trace holds, or write its tables for pandas and others."""
+    from sheaf_explore.traces import Trace, write_parquet
+
+    opened = Trace(file)
+    if parquet is None:
+        print(f"{opened.kind} of {opened.metadata['scene']['name']}: {opened.records} records")
+        return
+    for path in write_parquet(opened, parquet):
+        _say(f"written: {path}")
+
+
+@app.command(epilog=_EXITS)
 def paper(
     out: Annotated[Path, typer.Option("--out", help="Folder of the runs and the report")] = Path(
         "result/paper"

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tracefile/memory_stream.h"
+
+#include <string>
+
+#include "tracefile/columns.h"
+
+namespace sheaf {
+
+MemoryStream::MemoryStream(TraceReader& reader, const MemoryLayout& layout, std::size_t stream)
+    : reader_(reader), layout_(layout), stream_(stream) {
+  std::uint64_t records = 0;
+  for (const TraceFrame& frame : reader.frames()) {
+    if (stream_of_key(frame.key) >= layout.streams.size()) {
+      reader.refuse(frame, "there are records of a stream that the metadata do not name");
+    }
+    if (stream_of_key(frame.key) != stream) continue;
+    if (first_of_key(frame.key) != records) reader.refuse(frame, "records are missing before it");
+    records += frame.num_records;
+    frames_.push_back(frame);
+  }
+}
+
+bool MemoryStream::load() {
+  if (next_frame_ == frames_.size()) return false;
+  const TraceFrame& frame = frames_[next_frame_++];
+  reader_.read(frame, raw_);
+  block_.clear();
+  try {
+    decode_memory_block(raw_, stream_, frame.num_records, layout_, block_);
+  } catch (const BadColumn& problem) {
+    reader_.refuse(frame, problem.what());
+  }
+  first_ = first_of_key(frame.key);
+  next_record_ = 0;
+  next_chain_ = 0;
+  return !block_.records.empty() || load();
+}
+
+MemoryAccesses::MemoryAccesses(TraceReader& reader, const MemoryLayout& layout) : layout_(layout) {
+  for (std::size_t stream = 0; stream < layout.streams.size(); ++stream) {
+    streams_.emplace_back(reader, layout, stream);
+  }
+}
+
+MemoryAccesses::Access MemoryAccesses::next() {
+  if (begun_) streams_[last_].pop();
+  begun_ = true;
+  Access first;
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    const MemoryRecord* record = streams_[i].peek();
+    while (record != nullptr && layout_.operations[record->operation].bytes == 0) {
+      streams_[i].pop();
+      record = streams_[i].peek();
+    }
+    if (record == nullptr) continue;
+    if (first.record == nullptr || record->cycle < first.record->cycle)
+      first = {i, record, nullptr};
+  }
+  if (first.record == nullptr) {
+    begun_ = false;
+    return first;
+  }
+  last_ = first.stream;
+  first.operation = &layout_.operations[first.record->operation];
+  return first;
+}
+
+}  // namespace sheaf

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Sheaf authors
+// SPDX-License-Identifier: Apache-2.0
+#include "units/replay_schedule.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace sheaf {
+
+ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors,
+                               ClockDomain& domain)
+    : layout_(layout), errors_(errors), domain_(domain), agent_(domain.add(*this)) {
+  std::map<std::string, std::size_t> numbers;
+  for (std::size_t i = 0; i < layout.streams.size(); ++i) {
+    Stream& stream = streams_.emplace_back();
+    const auto known = numbers.try_emplace(layout.streams[i].group, groups_.size());
+    if (known.second) groups_.emplace_back();
+    stream.group = known.first->second;
+    groups_[stream.group].streams.push_back(i);
+    stream.awaited = layout.streams[i].awaited;
+    stream.done.resize(kRemembered);
+  }
+}
+
+void ReplaySchedule::add(ReplayedUnit& unit, MemoryStream records) {
+  const auto is_new = [](const Stream& stream) { return stream.unit == nullptr; };
+  const auto stream = std::ranges::find_if(streams_, is_new);
+  stream->unit = &unit;
+  stream->reader = std::make_unique<ChainReader>(
+      std::move(records), static_cast<std::size_t>(stream - streams_.begin()), chains_);
+}
+
+void ReplaySchedule::begin() {
+  read_ahead(0, 0);
+}
+
+// So that half of kAhead at least lies before the cycle of the recording.
+void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) try {
+  if (recorded + kAhead / 2 < read_until_) return;
+  read_until_ = recorded + kAhead;
+  for (Stream& stream : streams_) {
+    stream.reader->read_until(read_until_, [&](ReplayChain& chain) { take_in(chain, now); });
+  }
+  advance_epoch(now);
+} catch (...) {
+  errors_.fail(std::current_exception());
+  domain_.stop();
+}
+
+bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) try {
+  if (chain.next != chain.steps.size()) return true;
+  ChainReader& reader = *streams_[chain.stream].reader;
+  const bool has = reader.has_step(chain, [&](ReplayChain& read) { take_in(read, now); });
+  advance_epoch(now);
+  return has;
+} catch (...) {
+  errors_.fail(std::current_exception());
+  domain_.stop();
+  return false;
+}
+
+void ReplaySchedule::take_in(ReplayChain& chain, Cycles now) {
+  Stream& stream = streams_[chain.stream];
+  ++stream.epochs[chain.start.epoch];
+  await(chain, now);
+}
+
+void ReplaySchedule::await(ReplayChain& chain, Cycles now) {
+  const ChainStart& start = chain.start;
+  if (start.cause_stream == AccessCause::kAllEarlier) {
+    if (epoch_ >= start.epoch) return arrive(chain, epoch_begin_, now);
+    epoch_waiters_.push_back(&chain);
+    return;
+  }
+  Stream& source = streams_[start.cause_stream];
+  Done& done = source.done[start.cause_record % kRemembered];
+  if (done.record == start.cause_record) {
+    const Cycles at = start.cause_ended ? done.chain : done.step;
+    if (at != kNever) return arrive(chain, at, now);
+  } else if (done.record != kNoRecord && done.record > start.cause_record) {
+    return arrive(chain, 0, now);  // so long ago that a later record has taken its place
+  } else {
+    done = {};
+    done.record = start.cause_record;
+  }
+  chain.next_waiter = std::exchange(done.waiters, &chain);
+}
+
+void ReplaySchedule::tell_waiters(Done& done, bool ended, Cycles now) {
+  ReplayChain* chain = std::exchange(done.waiters, nullptr);
+  while (chain != nullptr) {
+    ReplayChain* const next = chain->next_waiter;
+    if (chain->start.cause_ended == ended) {
+      arrive(*chain, now, now);
+    } else {
+      chain->next_waiter = std::exchange(done.waiters, chain);
+    }
+    chain = next;
+  }
+}
+
+// What has been learnt late cannot begin in the past: `now` is the time of the unit that acts.
+void ReplaySchedule::arrive(ReplayChain& chain, Cycles done, Cycles now) {
+  const Cycles gap = std::max<Cycles>(1, chain.start.gap);
+  const Cycles at = std::max(done + gap, now + 1);
+  arriving_.push({at, num_arrived_++, &chain});
+  domain_.schedule(agent_, at - 1);
+}
+
+// Places chains the cycle before they begin, so that their unit cannot have got there yet.
+Cycles ReplaySchedule::wake(Cycles now) {
+  while (!arriving_.empty() && arriving_.top().at <= now + 1) {
+    const Arrival arrival = arriving_.top();
+    arriving_.pop();
+    place(arrival);
+  }
+  return arriving_.empty() ? kNever : arriving_.top().at - 1;
+}
+
+void ReplaySchedule::place(const Arrival& arrival) {
+  Group& group = groups_[streams_[arrival.chain->stream].group];
+  const auto num_free = [&](std::size_t stream) {
+    return streams_[stream].unit->num_free_contexts();
+  };
+  const std::size_t freest = *std::ranges::max_element(group.streams, {}, num_free);
+  if (num_free(freest) == 0) {
+    const Cycles recorded = arrival.chain->steps.front().record.cycle;
+    group.waiting.push({recorded, arrival.rank, arrival.chain});
+  } else {
+    streams_[freest].unit->assign(*arrival.chain, arrival.at);
+  }
+}
+
+ReplayChain* ReplaySchedule::next_waiting(std::size_t stream) {
+  Arrivals& waiting = groups_[streams_[stream].group].waiting;
+  if (waiting.empty()) return nullptr;
+  ReplayChain* const chain = waiting.top().chain;
+  waiting.pop();
+  return chain;
+}
+
+void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context, Cycles now) {
+  Stream& stream = streams_[chain.stream];
+  const std::uint64_t record = chain.steps[chain.next].number;
+  Done& done = stream.done[record % kRemembered];
+  ReplayChain* const waiters = done.record == record ? done.waiters : nullptr;
+  done = {record, now, kNever, &unit, static_cast<std::uint8_t>(context), waiters};
+  tell_waiters(done, false, now);
+}
+
+void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) {
+  const Cycles recorded = chain.steps[chain.next].record.cycle;
+  streams_[chain.stream].reader->leave_step(chain);
+  read_ahead(recorded, now);
+}
+
+void ReplaySchedule::chain_ended(ReplayChain& chain, std::uint64_t record, Cycles now) {
+  Stream& stream = streams_[chain.stream];
+  Done& done = stream.done[record % kRemembered];
+  if (done.record == record) {
+    done.chain = now;
+    tell_waiters(done, true, now);
+  }
+  // A caller waits for its answer.
+  const ChainStart start = chain.start;
+  if (start.cause_stream != AccessCause::kAllEarlier && !start.cause_ended) {
+    const Done& call = streams_[start.cause_stream].done[start.cause_record % kRemembered];
+    if (call.record == start.cause_record && call.unit != nullptr) {
+      call.unit->answered(call.context, call.record, now + layout_.answer_latency);
+    }
+  }
+  chains_.release(&chain);
+  const auto epoch = stream.epochs.find(start.epoch);
+  if (epoch != stream.epochs.end() && --epoch->second == 0) stream.epochs.erase(epoch);
+  if (!stream.awaited) return;
+  last_end_ = std::max(last_end_, now);
+  advance_epoch(now);
+}
+
+// No chain of an earlier epoch is left in the stream.
+std::uint64_t ReplaySchedule::first_epoch(const Stream& stream) const {
+  if (!stream.awaited) return kNoEpoch;
+  const std::uint64_t unread = stream.reader->next_epoch();
+  return stream.epochs.empty() ? unread : std::min(unread, stream.epochs.begin()->first);
+}
+
+void ReplaySchedule::advance_epoch(Cycles now) {
+  std::uint64_t first = kNoEpoch;
+  for (const Stream& stream : streams_) first = std::min(first, first_epoch(stream));
+  if (first <= epoch_) return;
+  epoch_ = first;
+  epoch_begin_ = last_end_;
+  std::erase_if(epoch_waiters_, [&](ReplayChain* chain) {
+    if (chain->start.epoch > epoch_) return false;
+    arrive(*chain, epoch_begin_, now);
+    return true;
+  });
+  if (epoch_ != kNoEpoch) return;
+  for (Stream& stream : streams_) stream.unit->all_done(now);
+}
+
+bool ReplaySchedule::all_done() const {
+  return std::ranges::all_of(streams_,
+                             [](const Stream& stream) { return stream.reader->all_done(); });
+}
+
+}  // namespace sheaf
