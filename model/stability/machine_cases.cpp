@@ -18,9 +18,11 @@ struct Factor {
   std::vector<std::string> levels;
 };
 
-/// The extremes of every rate, size and number of the machine, and every choice of its policies.
-std::vector<Factor> factors() {
-  const std::vector<std::string> cycles = {"1", "1000000"};
+/// The extremes of every rate, size and number of the machine, and every choice of its policies;
+/// `slow` is what takes long, in cycles.
+std::vector<Factor> factors(const std::string& slow) {
+  const std::vector<std::string> cycles = {"1", slow};
+  const std::vector<std::string> depths = {"1", "1000000"};
   const std::vector<std::string> units = {"1", "64"};
   const std::vector<std::string> lines = {"1", "4096"};
   std::vector<Factor> all = {
@@ -38,11 +40,11 @@ std::vector<Factor> factors() {
       {"flow.tile_size", {"8", "1024"}},
       {"packet.size", units},
       {"packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}},
-      {"packet_fifo.depth", cycles},
+      {"packet_fifo.depth", depths},
       {"packet_fifo.latency", cycles},
       {"primary_source.interval", cycles},
       {"link.latency", cycles},
-      {"link.depth", cycles},
+      {"link.depth", depths},
       {"link.memory_latency", cycles},
       {"link.memory_width", {"1", "4096"}},
       {"dram.latency", cycles},
@@ -67,21 +69,36 @@ std::vector<Factor> factors() {
   return all;
 }
 
-std::vector<Finding> stiff_machines(const Effort& effort) {
-  const MachineScene scene(2);
-  const MachineRun untimed = scene.run({"run.fidelity=functional"});
-  const std::vector<Factor> all = factors();
+/// Machines as settings: every combination of the levels of any `strength` factors.
+std::vector<std::vector<std::string>> machines(const std::vector<Factor>& all,
+                                               std::size_t strength) {
   std::vector<std::size_t> levels;
   for (const Factor& factor : all) levels.push_back(factor.levels.size());
-  const std::size_t strength = effort.quick ? 2 : 3;
-  Failures broken;
-  Failures pictures;
-  Failures rays;
+  std::vector<std::vector<std::string>> result;
   for (const auto& row : covering_array(levels, strength)) {
     std::vector<std::string> settings;
     for (std::size_t f = 0; f < all.size(); ++f) {
       settings.push_back(all[f].key + "=" + all[f].levels[row[f]]);
     }
+    result.push_back(std::move(settings));
+  }
+  return result;
+}
+
+std::vector<Finding> stiff_machines(const Effort& effort) {
+  const MachineScene scene(2);
+  const MachineRun untimed = scene.run({"run.fidelity=functional"});
+  std::vector<Factor> all = factors("1000000");
+  for (Factor& factor : all) {
+    if (factor.key == "flow.control") factor.levels.emplace_back("spill");
+  }
+  all.push_back({"crossbar.request_width", {"0", "1"}});
+  all.push_back({"crossbar.response_width", {"0", "1"}});
+  const std::size_t strength = effort.quick ? 2 : 3;
+  Failures broken;
+  Failures pictures;
+  Failures rays;
+  for (const std::vector<std::string>& settings : machines(all, strength)) {
     const MachineRun run = scene.run(settings);
     const auto where = [&] {
       return fmt::format("--set {}: {}", fmt::join(settings, " --set "), run.error);
@@ -101,6 +118,27 @@ std::vector<Finding> stiff_machines(const Effort& effort) {
                          "conservation that each run checks"),
           pictures.finding("pictures unlike the untimed pipeline's, bit by bit", same),
           rays.finding("ray counts unlike the untimed pipeline's", same)};
+}
+
+/// The reference ticks every cycle, so that what is slow here takes 10 cycles.
+std::vector<Finding> against_clocked(const Effort& effort) {
+  const MachineScene scene(1);
+  const std::size_t strength = effort.quick ? 1 : 2;
+  Failures unlike;
+  for (std::vector<std::string> settings : machines(factors("10"), strength)) {
+    const MachineRun timed = scene.run(settings);
+    settings.emplace_back("run.fidelity=clocked");
+    const MachineRun clocked = scene.run(settings);
+    unlike.check(timed.error.empty() && clocked.error.empty() && timed.cycles == clocked.cycles &&
+                     timed.picture == clocked.picture && timed.rays == clocked.rays,
+                 [&] {
+                   return fmt::format("--set {}: {} cycles, {}; clocked {}, {}",
+                                      fmt::join(settings, " --set "), timed.cycles, timed.error,
+                                      clocked.cycles, clocked.error);
+                 });
+  }
+  return {unlike.finding("machines whose cycles, picture or rays are not those of clocked",
+                         "timed is exact about what clocked models (decision 0040)")};
 }
 
 /// One of everything, so that nothing overlaps what takes long: the traversal's issue port.
@@ -190,6 +228,10 @@ std::vector<StabilityCase> machine_cases() {
            "latencies and rates of 1 and 1e6, queues from 1, units from 1 to 64, "
            "clocks of 1 MHz and 1 THz",
            stiff_machines},
+          {"machines", "against clocked",
+           "latencies and rates of 1 and 10, queues from 1, units from 1 to 64, "
+           "clocks of 1 MHz and 1 THz",
+           against_clocked},
           {"machines", "long runs", "1e12 cycles", [](const Effort&) { return long_runs(); }},
           {"machines", "clocks", "core clocks from 1 kHz to 1 THz beside memory of 1 to 2 GHz",
            [](const Effort&) { return clocks(); }},

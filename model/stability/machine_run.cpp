@@ -11,6 +11,7 @@
 #include "scene/scene_needs.h"
 #include "stability/child_process.h"
 #include "stability/shaded_mesh.h"
+#include "system/clocked_machine.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
 
@@ -71,8 +72,16 @@ std::string run_here(const Config& config, const PreparedScene& scene) {
     Frame frame(config);
     StatsTree stats;
     const bool timed = config.run.fidelity != Fidelity::kFunctional;
-    const bool complete = timed ? simulate<Machine>(config, scene, frame, stats)
-                                : simulate<FunctionalPipeline>(config, scene, frame, stats);
+    const bool complete = [&] {
+      switch (config.run.fidelity) {
+        case Fidelity::kFunctional:
+          return simulate<FunctionalPipeline>(config, scene, frame, stats);
+        case Fidelity::kClocked:
+          return simulate<ClockedMachine>(config, scene, frame, stats);
+        default:
+          return simulate<Machine>(config, scene, frame, stats);
+      }
+    }();
     if (!complete) return "the frame is not complete";
     return fmt::format("done {} {} {}", timed ? stats.count("system.cycles") : 0,
                        hash_picture(frame, config), hash_rays(frame.rays));

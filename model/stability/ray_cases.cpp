@@ -15,9 +15,9 @@
 namespace sheaf::stability {
 namespace {
 
-constexpr int kRays = 3000;
+constexpr int kRays = 12000;
 /// Of how many rays one is held against exact arithmetic on every triangle, which takes a while.
-constexpr int kExactEvery = 10;
+constexpr int kExactEvery = 20;
 
 const char* const kNoLoss =
     "the traversal tests a superset of what it must, with one arithmetic for all schemes "
