@@ -58,14 +58,15 @@ TEST_P(Analytic, EstimatesWithinWhatIsDocumented) {
 
 INSTANTIATE_TEST_SUITE_P(Machines, Analytic,
                          testing::Values(Settings{}, Settings{"flow.control=credits"},
-                                         Settings{"dram.model=DDR4-2400", "l2.sectors=2"},
-                                         Settings{"film_cache.write_policy=through", "l2.mode=perfect"}));
+                                         Settings{"dram.model=DDR4-2400", "l2.line=128",
+                                                  "l2.sectors=2"},
+                                         Settings{"film_cache.write_policy=through"}));
 
 // One unit of each kind and packets in the same order: the accesses of the timed machine, one by
 // one, are those that the model looks up.
 TEST(AnalyticAccesses, AreThoseOfTheTimedMachine) {
   const TestScene scene(
-      committed_scene("fairy"),
+      committed_scene("sponza"),
       {"image.width=48", "image.height=32", "traversal_unit.count=1", "intersection_unit.count=1",
        "traversal_unit.contexts=1", "ray_cache.heuristic=none"});
   const Outcome timed = scene.run();

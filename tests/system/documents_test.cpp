@@ -63,7 +63,8 @@ std::vector<std::string> all_matches(const std::string& line, const std::regex& 
 struct Keys {
   Keys() {
     Config config;
-    for (const Parameter& parameter : declare_parameters(config).parameters()) {
+    const ParameterTable table = declare_parameters(config);
+    for (const Parameter& parameter : table.parameters()) {
       keys.insert(parameter.key);
       sections.insert(parameter.key.substr(0, parameter.key.find('.')));
     }

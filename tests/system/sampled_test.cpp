@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "support/scenes.h"
 #include "support/simulate.h"
@@ -25,7 +26,8 @@ TEST(TileSample, DrawsEachStretchOnce) {
 TEST(TileSample, DrawsEveryStretchEquallyOften) {
   std::vector<int> times(25, 0);
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    for (const std::uint32_t stretch : TileSample(100, 0.8, seed, 0).drawn()) ++times[stretch];
+    const TileSample sample(100, 0.8, seed, 0);
+    for (const std::uint32_t stretch : sample.drawn()) ++times[stretch];
   }
   for (const int n : times) EXPECT_NEAR(n, 1600, 4 * std::sqrt(2000 * 0.8 * 0.2));
 }
