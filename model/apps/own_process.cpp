@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -57,9 +58,27 @@ ExitCode work_here(const std::function<std::vector<double>()>& work, std::FILE* 
   }
 }
 
+// A signal that ends this process alone must reach the other one too.
+int wait_for(pid_t child, const std::function<bool()>& stop) {
+  constexpr useconds_t kInterval = 10'000;
+  bool told = false;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) throw Error(ExitCode::kBug, "lost a process");
+    if (!told && stop()) {
+      told = true;
+      kill(child, SIGTERM);
+    }
+    usleep(kInterval);
+  }
+}
+
 }  // namespace
 
-std::vector<double> in_own_process(const std::function<std::vector<double>()>& work) {
+std::vector<double> in_own_process(const std::function<std::vector<double>()>& work,
+                                   const std::function<bool()>& stop) {
   const File answer(std::tmpfile(), std::fclose);
   if (answer == nullptr) throw Error(ExitCode::kOutput, "no temporary file could be made");
   std::fflush(nullptr);
@@ -73,10 +92,7 @@ std::vector<double> in_own_process(const std::function<std::vector<double>()>& w
     };
     _exit(static_cast<int>(work_here(work_until_parent_ends, answer.get())));
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw Error(ExitCode::kBug, "lost a process");
-  }
+  const int status = wait_for(child, stop);
   if (!WIFEXITED(status)) {
     throw Error(ExitCode::kBug, fmt::format("a level was ended by signal {}", WTERMSIG(status)));
   }

@@ -12,8 +12,6 @@
 namespace sheaf {
 namespace {
 
-constexpr std::chrono::milliseconds kRedrawTime{200};
-
 std::size_t terminal_columns() {
   constexpr std::size_t kUsual = 80;
   winsize size{};
@@ -41,14 +39,17 @@ std::string progress_line(double fraction, std::string_view text,
   return line;
 }
 
-Progress::Progress(std::chrono::milliseconds quiet_time)
-    : on_terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), next_(start_ + quiet_time) {}
+Progress::Progress(std::chrono::milliseconds quiet_time, std::chrono::milliseconds redraw_time)
+    : redraw_time_(redraw_time),
+      on_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      next_(start_ + quiet_time) {}
 
 void Progress::update(double fraction, std::string_view text) {
   if (!on_terminal_) return;
   const auto now = Clock::now();
   if (now < next_) return;
-  next_ = now + kRedrawTime;
+  next_ = now + redraw_time_;
   drawn_ = true;
   // The last column stays free: some terminals wrap when it is written.
   fmt::print(stderr, "\r\033[K{}",

@@ -17,12 +17,13 @@ namespace sheaf {
 /// quiet time, so that logs and short runs stay clean; erased at the end.
 class Progress {
  public:
-  explicit Progress(std::chrono::milliseconds quiet_time = std::chrono::seconds(2));
+  explicit Progress(std::chrono::milliseconds quiet_time = std::chrono::seconds(2),
+                    std::chrono::milliseconds redraw_time = kRedrawTime);
   ~Progress() { erase(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Cheap: redraws a few times a second at most.
+  /// Cheap: redraws once in `redraw_time` at most.
   void update(double fraction, std::string_view text);
 
   /// Removes the line, so that something else can be printed.
@@ -30,6 +31,9 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kRedrawTime{200};
+
+  const std::chrono::milliseconds redraw_time_;
 
   bool on_terminal_;
   bool drawn_ = false;

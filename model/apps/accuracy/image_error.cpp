@@ -102,7 +102,7 @@ std::vector<ImageError> image_errors(const Config& config, PreparedScene& scene,
     with_format.run.fidelity = Fidelity::kTimed;
     with_format.film.format = format.format;
     const std::vector<double> numbers =
-        in_own_process([&] { return render(with_format, scene, stop); });
+        in_own_process([&] { return render(with_format, scene, stop); }, stop);
     if (numbers.empty() || stop()) return {};
     Picture picture;
     for (std::size_t i = 1; i + 2 < numbers.size(); i += 3) {

@@ -129,7 +129,7 @@ std::optional<LevelRun> run_level(const Level& level, const Config& config,
   std::vector<double> wall;
   do {
     const std::vector<double> numbers =
-        in_own_process([&] { return simulate(config, scene, stop); });
+        in_own_process([&] { return simulate(config, scene, stop); }, stop);
     if (numbers.empty()) return std::nullopt;
     run = unpack(level, numbers);
     processor.push_back(run->processor_seconds);

@@ -42,7 +42,7 @@ TEST(Progress, LineIsCutToTheTerminal) {
 TEST(Progress, ALogStaysClean) {
   testing::internal::CaptureStderr();
   {
-    Progress progress(seconds(0));
+    Progress progress(seconds(0), seconds(3600));
     progress.update(0.5, "tiles");
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -66,7 +66,7 @@ std::string written_to_terminal(Run run) {
 
 TEST(Progress, ATerminalShowsTheLineAndLosesItAtTheEnd) {
   const std::string written = written_to_terminal([] {
-    Progress progress(seconds(0));
+    Progress progress(seconds(0), seconds(3600));
     progress.update(0.0, "tiles");
     progress.update(0.1, "too soon after the first");
   });
