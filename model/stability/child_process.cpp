@@ -3,11 +3,11 @@
 #include "stability/child_process.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <stdexcept>
 
@@ -43,8 +43,8 @@ std::string run_in_child(const std::function<std::string()>& job, unsigned secon
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
     close(ends[0]);
-    std::signal(SIGALRM, SIG_DFL);
-    alarm(seconds);
+    const rlimit limit{seconds, seconds};
+    setrlimit(RLIMIT_CPU, &limit);
     write_all(ends[1], job());
     _exit(0);
   }

@@ -9,7 +9,7 @@ namespace sheaf::stability {
 
 /// Runs `job` in a process of its own, since SystemC keeps one simulation a process, and returns
 /// what it returned. Whatever ends the process otherwise is told instead: "ended by signal 11".
-/// A job that takes longer than `seconds` ends by signal 14.
+/// A job that takes more than so many seconds of processor time is ended so.
 [[nodiscard]] std::string run_in_child(const std::function<std::string()>& job, unsigned seconds);
 
 }  // namespace sheaf::stability

@@ -24,7 +24,8 @@ struct MachineRun {
 class MachineScene {
  public:
   explicit MachineScene(std::uint32_t recursion_level);
-  /// `settings` are those of --set. A machine that takes longer than a minute is taken to hang.
+  /// `settings` are those of --set. A machine that takes more than a minute of processor time
+  /// is taken to hang.
   [[nodiscard]] MachineRun run(const std::vector<std::string>& settings) const;
 
  private:
