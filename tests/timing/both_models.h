@@ -156,7 +156,9 @@ class LineServer {
     if (!request.write) pending_.push_back(request.address);
   }
   void answer(typename Bench::template Link<LineResponse>& responses, Cycles now) {
-    for (std::uint64_t left = bench_.random.below(4); left != 0 && !pending_.empty(); --left) {
+    // Towards the end everything at once, so that all comes to rest.
+    const std::uint64_t most = now < kLastAction / 2 ? bench_.random.below(4) : pending_.size();
+    for (std::uint64_t left = most; left != 0 && !pending_.empty(); --left) {
       const auto chosen =
           pending_.begin() + static_cast<std::ptrdiff_t>(bench_.random.below(pending_.size()));
       Bench::template write<LineResponse>(responses, {*chosen}, now);

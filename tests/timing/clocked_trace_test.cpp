@@ -22,7 +22,7 @@ constexpr int kPacketSize = 16;
 constexpr std::uint16_t kRequester = 0;
 
 const stability::MeshScene& mesh() {
-  static const stability::MeshScene scene(stability::soup(600, 0.1F, 7));
+  static const stability::MeshScene scene(stability::soup(60, 0.2F, 7));
   return scene;
 }
 
@@ -88,7 +88,7 @@ struct TraversalBench {
   void act(Cycles now) {
     lines.act(now);
     while (out_free->has_arrived(now)) num_free += out_free->read(now).unit == 0 ? 1 : 0;
-    if (num_free != 0 && now < kLastAction / 3 && bench.random.below(3) == 0) {
+    if (num_free != 0 && now < kLastAction / 4 && bench.random.below(3) == 0) {
       packets.push_back(
           std::make_unique<RayPacket>(stability::random_packet(bench.random, kPacketSize, mesh())));
       if (packets.back()->active == 0) return;
@@ -106,7 +106,8 @@ struct TraversalBench {
       awaiting.pop_front();
     }
     for (auto* link : out) {
-      if (!link->has_arrived(now) || bench.random.below(6) != 0) continue;
+      const bool takes = now > kLastAction / 2 || bench.random.below(6) == 0;
+      if (!link->has_arrived(now) || !takes) continue;
       bench.note("packet", now, link->read(now)->active);
     }
   }
@@ -115,6 +116,7 @@ struct TraversalBench {
     bench.run([&](Cycles now) {
       if constexpr (!M::kTimed) unit->tick(now);
     });
+    EXPECT_FALSE(unit->cache().has_pending());
     bench.note_counters(unit->pipeline_stats());
     bench.note_counters(unit->cache().stats());
     bench.note_counters(unit->primary_counts());
