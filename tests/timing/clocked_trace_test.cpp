@@ -88,8 +88,7 @@ struct TraversalBench {
   void act(Cycles now) {
     lines.act(now);
     while (out_free->has_arrived(now)) num_free += out_free->read(now).unit == 0 ? 1 : 0;
-    if (num_free != 0 && packets.size() < 4 && now < kLastAction / 4 &&
-        bench.random.below(3) == 0) {
+    if (num_free != 0 && now < kLastAction / 4 && bench.random.below(3) == 0) {
       packets.push_back(
           std::make_unique<RayPacket>(stability::random_packet(bench.random, kPacketSize, mesh())));
       if (packets.back()->active == 0) return;
