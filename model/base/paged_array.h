@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -22,7 +23,8 @@ namespace sheaf {
 /// A large array that starts as zero bytes and need not fit into memory. A small one is ordinary
 /// memory. A large one lies in a file without a name in the folder for temporary files; the pages
 /// in use leave the process now and then, and the system writes them to the disk as it sees fit.
-/// Throws Error(kOutput) if there is no room for the file.
+/// Throws Error(kOutput) if there is no room for the file, std::bad_alloc if there are no
+/// addresses.
 template <typename T>
 class PagedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -37,7 +39,7 @@ class PagedArray {
     const int flags = paged_ ? MAP_SHARED : MAP_PRIVATE | MAP_ANONYMOUS;
     void* const memory = mmap(nullptr, bytes(), PROT_READ | PROT_WRITE, flags, file, 0);
     if (file >= 0) close(file);
-    if (memory == MAP_FAILED) refuse(errno);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
     data_ = static_cast<T*>(memory);
   }
   PagedArray(PagedArray&& other) noexcept
