@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -84,3 +86,10 @@ def test_damage_is_refused_with_its_place(tmp_path: Path) -> None:
         damaged.write_bytes(good[:size])
         with pytest.raises(ExploreError, match=r"damaged\.trace"):
             read_tables(damaged)
+
+
+def test_the_recipe_makes_the_traces_again_bit_for_bit(sheaf: Path, tmp_path: Path) -> None:
+    recipe = [sys.executable, TRACES / "make_traces.py", sheaf, tmp_path]
+    subprocess.run(recipe, check=True, timeout=300)
+    for trace in sorted(TRACES.glob("*.trace")):
+        assert (tmp_path / trace.name).read_bytes() == trace.read_bytes(), trace.name
