@@ -61,11 +61,13 @@ class DramScheduler {
   static constexpr std::uint32_t kNumKinds = 3;
   static constexpr std::uint32_t kMostBanks = 64;
 
-  // Twice the time, plus one for a row command, orders by time and then by kind. Kept apart by what
-  // the choice looks at, so that it runs over banks without a branch.
+  // Twice the time, plus one for a row command, orders by time and then by kind; with the age
+  // behind it the lowest is the one to be issued. Kept apart by what the choice looks at, so that
+  // it runs over banks without a branch.
+  __extension__ using Order = unsigned __int128;
   struct Candidates {
     std::array<std::uint64_t, kMostBanks> ready;  ///< as far as bank and request go
-    std::array<std::uint64_t, kMostBanks> age;
+    std::array<std::uint64_t, kMostBanks> age_and_bank;
     std::array<std::uint32_t, kMostBanks> limit;  ///< kind x groups + group
     std::array<BankLists::Index, kMostBanks> entry;
   };
@@ -82,8 +84,7 @@ class DramScheduler {
     const std::uint32_t banks = device_.organization.banks_per_rank();
     return all_banks_ >> (num_banks_ - banks) << (rank * banks);
   }
-  [[nodiscard]] std::uint64_t earliest_of(std::uint64_t banks, std::uint64_t& best) const;
-  [[nodiscard]] std::uint32_t oldest_of(std::uint64_t banks) const;
+  [[nodiscard]] Order first_of(std::uint64_t banks) const;
   [[nodiscard]] Choice choice_of(std::uint32_t bank, std::uint64_t order) const;
   [[nodiscard]] const BankLists& queue() const { return writing_ ? writes_ : reads_; }
 
