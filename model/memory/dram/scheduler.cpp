@@ -49,20 +49,24 @@ void DramScheduler::renew(std::uint32_t index) {
   ready = std::max(ready, requests[entry].accepted + device_.controller_latency);
   candidates_.ready[index] = 2 * ready + (kind == kColumn ? 0 : 1);
   candidates_.age_and_bank[index] = requests[entry].age * kMostBanks + index;
-  candidates_.limit[index] = kind * num_groups_ + bank.group;
+  candidates_.limit[index] = kind * num_groups_ + (kind == kPrecharge ? 0 : bank.group);
   candidates_.entry[index] = entry;
 }
 
 void DramScheduler::set_limits(const Buses& buses) {
   std::uint64_t* const column = from_.data() + kColumn * num_groups_;
   std::uint64_t* const activate = from_.data() + kActivate * num_groups_;
-  std::uint64_t* const precharge = from_.data() + kPrecharge * num_groups_;
-  for (std::uint32_t group = 0; group < num_groups_; ++group) {
-    const Cycles data = writing_ ? banks_.group_write_at(group) : banks_.group_read_at(group);
-    column[group] = 2 * std::max(data, buses.column);
-    activate[group] = 2 * std::max(banks_.group_activate_at(group), buses.row) + 1;
-    precharge[group] = 2 * buses.row + 1;
+  const std::uint32_t groups_per_rank = device_.organization.bank_groups;
+  std::uint32_t group = 0;
+  for (std::uint32_t rank = 0; group < num_groups_; ++rank) {
+    const Cycles column_at = std::max(banks_.rank_column_at(rank, writing_), buses.column);
+    const Cycles activate_at = std::max(banks_.rank_activate_at(rank), buses.row);
+    for (const std::uint32_t end = group + groups_per_rank; group < end; ++group) {
+      column[group] = 2 * std::max(banks_.group_column_at(group, writing_), column_at);
+      activate[group] = 2 * std::max(banks_.group_activate_at(group), activate_at) + 1;
+    }
   }
+  from_[kPrecharge * num_groups_] = 2 * buses.row + 1;
 }
 
 DramScheduler::Choice DramScheduler::choose(const Buses& buses) {

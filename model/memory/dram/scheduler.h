@@ -68,7 +68,7 @@ class DramScheduler {
   struct Candidates {
     std::array<std::uint64_t, kMostBanks> ready;  ///< as far as bank and request go
     std::array<std::uint64_t, kMostBanks> age_and_bank;
-    std::array<std::uint32_t, kMostBanks> limit;  ///< kind x groups + group
+    std::array<std::uint32_t, kMostBanks> limit;  ///< index into from_
     std::array<BankLists::Index, kMostBanks> entry;
   };
   void choose_direction();
@@ -95,8 +95,8 @@ class DramScheduler {
   const std::uint32_t num_banks_, num_groups_;
   Candidates candidates_{};               ///< of banks with requests
   std::vector<std::uint32_t> overtaken_;  ///< a bank: row hits that went before an older request
-  std::array<std::uint64_t, kNumKinds * kMostBanks>
-      from_{};  ///< a kind, a group: for all its banks
+  /// A kind, a group: for all its banks; kPrecharge: for all banks.
+  std::array<std::uint64_t, kNumKinds * kMostBanks> from_{};
   std::vector<Cycles> refresh_at_;
   const std::uint64_t all_banks_;
   std::uint64_t stale_ = 0;  ///< bit i: bank i or its requests have changed
