@@ -10,12 +10,11 @@
 #include <utility>
 
 #include "geometry/watertight.h"
-#include "kdtree/build.h"
 
 namespace sheaf::stability {
 
-MeshScene::MeshScene(Mesh source)
-    : mesh(std::move(source)), tree(build_kd_tree(mesh.positions, mesh.triangles)) {
+MeshScene::MeshScene(Mesh source, const KdBuildOptions& options)
+    : mesh(std::move(source)), tree(build_kd_tree(mesh.positions, mesh.triangles, options)) {
   for (const auto& t : mesh.triangles) {
     records.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
   }

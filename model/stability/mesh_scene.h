@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kdtree/kd_tree.h"
+#include "kdtree/build.h"
 #include "stability/mesh.h"
 #include "traversal/trace.h"
 
@@ -14,7 +14,7 @@ namespace sheaf::stability {
 
 /// A mesh with all that trace_packet() needs.
 struct MeshScene {
-  explicit MeshScene(Mesh source);
+  explicit MeshScene(Mesh source, const KdBuildOptions& options = {});
   Mesh mesh;
   KdTree tree;
   std::vector<TriangleRecord> records;

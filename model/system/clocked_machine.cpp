@@ -47,7 +47,8 @@ void ClockedMachine::build_memory() {
 clocked::Cache ClockedMachine::make_cache(const CacheSpec& spec) {
   const auto number = static_cast<std::uint16_t>(requests_.size());
   const Cycles latency = config_.link.memory_latency;
-  const Cycles transfer = (spec.line + config_.link.memory_width - 1) / config_.link.memory_width;
+  const Bytes bytes = spec.line / spec.sectors;
+  const Cycles transfer = (bytes + config_.link.memory_width - 1) / config_.link.memory_width;
   requests_.push_back(std::make_unique<Link<LineRequest>>(
       fmt::format("cache_{}_to_l2", number),
       Link<LineRequest>::Spec{.latency = latency, .interval = 0}));
@@ -239,7 +240,7 @@ bool ClockedMachine::run(const Monitor& monitor) {
 
 // Nothing is on its way, and no unit works at anything.
 bool ClockedMachine::is_still(Cycles now) const {
-  bool moving = l2_->is_moving() || (ray_cache_ && ray_cache_->will_time_out());
+  bool moving = !l2_->is_idle() || (ray_cache_ && ray_cache_->will_time_out());
   for (const auto* unit : units_) moving |= unit->stalls().cause() == StallCause::kBusy;
   links_.for_each([&](const auto& link) { moving |= link.is_moving(now); });
   for (const auto& link : requests_) moving |= link->is_moving(now);
