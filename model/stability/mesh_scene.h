@@ -37,6 +37,9 @@ struct Hit {
 /// the vector kernel; throws std::logic_error if the two fare differently.
 [[nodiscard]] Hit trace_one(const MeshScene& scene, const Ray& ray,
                             TraversalScheme scheme = TraversalScheme::kSingle);
+/// Whether two copies of a ray, side by side, take the steps that the ray takes alone, each of
+/// them.
+[[nodiscard]] bool masked_takes_steps_of_single(const MeshScene& scene, const Ray& ray);
 /// The same triangle test on every triangle: what a traversal that loses nothing must find.
 [[nodiscard]] Hit test_all(const MeshScene& scene, const Ray& ray);
 

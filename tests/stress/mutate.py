@@ -72,7 +72,8 @@ MUTATIONS = [
     Mutation("paths lead nowhere up", "input/beyond the folder", [
         ("model/scene/gltf_uri.cpp", "relative.is_absolute() || climbs ||",
          "(relative.is_absolute() && !climbs) ||"),
-        ("model/scene/gltf_uri.cpp", "if (error || end != folder_.end()) {", "if (error) {")]),
+        ("model/scene/gltf_uri.cpp", "if (error || end != folder_.end()) {",
+         "if (error || end == folder_.begin()) {")]),
     Mutation("time that SystemC cannot say is refused", "machines/slow clock", [
         ("model/channels/clock_domain.h", "if (now > last_cycle_) refuse_time(now);", "")]),
 ]
@@ -102,8 +103,10 @@ def copy_head(scratch: pathlib.Path) -> None:
 
 
 def build(scratch: pathlib.Path) -> None:
-    subprocess.run(["cmake", "--build", "build/tests", "--target", "sheaf", "-j2"], cwd=scratch,
-                   check=True, stdout=subprocess.DEVNULL)
+    done = subprocess.run(["cmake", "--build", "build/tests", "--target", "sheaf", "-j2"],
+                          cwd=scratch, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"a mutation does not compile:\n{done.stdout}")
 
 
 def failures(scratch: pathlib.Path, cases: str) -> list:
