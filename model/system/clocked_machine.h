@@ -5,11 +5,10 @@
 #include <functional>
 #include <string>
 
+#include "system/clocked_memory.h"
 #include "system/machine_parts.h"
-#include "units/clocked/dram.h"
 #include "units/clocked/film.h"
 #include "units/clocked/intersection_unit.h"
-#include "units/clocked/l2_cache.h"
 #include "units/clocked/packet_arbiter.h"
 #include "units/clocked/primary_source.h"
 #include "units/clocked/ray_cache.h"
@@ -33,8 +32,7 @@ struct ClockedKind {
   using SpawnRouter = clocked::SpawnRouter;
   using ShaderCache = clocked::ShaderCache;
   using Film = clocked::FilmUnit;
-  using L2 = clocked::L2Cache;
-  using Memory = clocked::Dram;
+  using Memory = ClockedMemory;
 };
 
 /// The reference for Machine: the same machine with a clock. In every cycle every unit ticks, in
@@ -53,7 +51,6 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   template <typename T>
   using Channels = std::vector<std::unique_ptr<clocked::Link<T>>>;
 
-  void build_memory();
   void build_units();
   void build_regrouper();
   void connect();
@@ -61,7 +58,6 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void list_units();
   template <typename T>
   clocked::Link<T>& add_link(Channels<T>& links, const std::string& name);
-  [[nodiscard]] clocked::Cache make_cache(const CacheSpec& spec);
 
   void tick(Cycles now);
   [[nodiscard]] bool is_at_rest() const;
@@ -69,7 +65,6 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void check_progress(Cycles now);
   [[nodiscard]] std::string describe_stuck(Cycles now) const;
   std::vector<clocked::Unit*> units_;  ///< in the order in which they tick
-  Channels<LineRequest> requests_;     ///< of each private cache
   Cycles still_since_ = kNever;
 };
 

@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
 
+NumberColumn column_of(const std::vector<std::uint64_t>& values) {
+  NumberColumn column;
+  for (const std::uint64_t value : values) column.put(value);
+  return column;
+}
+
 TEST(Columns, GiveBackWhatWasWritten) {
   const std::vector<std::uint8_t> bytes{0, 255, 7};
   const std::vector<std::uint64_t> numbers{0, 127, 128, 16383, 16384, kMax};
@@ -19,7 +25,7 @@ TEST(Columns, GiveBackWhatWasWritten) {
   ByteVector raw;
   ColumnWriter writer(raw);
   writer.bytes(bytes);
-  writer.varints(numbers);
+  writer.numbers(column_of(numbers));
   writer.words(words);
   writer.longs(longs);
 
@@ -42,7 +48,7 @@ TEST(Columns, GiveBackWhatWasWritten) {
 TEST(Columns, StandLowestByteFirstAndInPlanes) {
   ByteVector raw;
   ColumnWriter writer(raw);
-  writer.varints(std::vector<std::uint64_t>{300});
+  writer.numbers(column_of({300}));
   writer.words(std::vector<std::uint32_t>{0x04030201, 0x04030201});
   EXPECT_EQ(raw, (ByteVector{2, 0, 0, 0, 0xAC, 0x02, 8, 0, 0, 0, 1, 0, 2, 0, 3, 0, 4, 0}));
 }
