@@ -17,8 +17,8 @@ void seal(const std::filesystem::path& path, const std::string& metadata, sheaf:
   sheaf::TraceWriter writer(path, {sheaf::TraceKind::kMemory, {}, {}});
   if (frame.size() > 3) {
     const std::uint32_t num_records = frame[0] + 256U * frame[1];
-    const sheaf::ByteSpan content = frame.subspan(3);
-    writer.add(sheaf::memory_key(frame[2], 0), num_records, {content.begin(), content.end()});
+    const sheaf::ByteVector content(frame.begin() + 3, frame.end());
+    writer.add(sheaf::memory_key(frame[2], 0), num_records, content);
   }
   writer.finish(metadata);
 }
