@@ -142,26 +142,6 @@ void check_clocked(const Config& c) {
   needs(c.flow.control != FlowPolicy::kSpill, "flow.control = tile and credits");
   needs(c.crossbar.request_width == 0, "crossbar.request_width = 0");
   needs(c.crossbar.response_width == 0, "crossbar.response_width = 0");
-  const auto plain = [&](const std::string& name, const auto& cache, bool allocates) {
-    needs(cache.sectors == 1, name + ".sectors = 1");
-    needs(cache.ports == 1, name + ".ports = 1");
-    needs(cache.mshr_targets == 0, name + ".mshr_targets = 0");
-    needs(cache.write.policy == WritePolicy::kBack, name + ".write_policy = back");
-    needs(cache.write.allocate == allocates,
-          fmt::format("{}.write_allocate = {}", name, allocates));
-    needs(cache.write.buffer == 0, name + ".write_buffer = 0");
-  };
-  plain("l2", c.l2, false);
-  const std::array<std::pair<const char*, const CacheSpec*>, 5> caches{
-      {{"node_cache", &c.node_cache},
-       {"triangle_cache", &c.triangle_cache},
-       {"attribute_cache", &c.attribute_cache},
-       {"texture_cache", &c.texture_cache},
-       {"film_cache", &c.film_cache}}};
-  for (const auto& [name, cache] : caches) {
-    plain(name, *cache, true);
-    needs(cache->banks == 1, std::string(name) + ".banks = 1");
-  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stats/sample_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -25,57 +26,51 @@ double probability_within(double theta, std::size_t degrees) {
   return odd ? 2.0 / std::numbers::pi * (theta + sine * sum) : sine * sum;
 }
 
-/// A product of sums over the sample, of whole powers 1 and -1, and of known factors.
-class Product {
- public:
-  void add(const SampledTotal& total, bool divides) {
-    terms_.push_back({total.measured, divides});
-    terms_.push_back({total.rough, !divides});
-    known_ *= divides ? 1.0 / total.rough_total : total.rough_total;
-  }
-
-  [[nodiscard]] Estimate estimate(std::size_t population) const {
-    const std::size_t sample = terms_.front().values.size();
-    const double value = without(sample);
-    const bool complete = sample == population;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    if (!std::isfinite(value) || (sample < 2 && !complete)) return {nan, nan, nan};
-    const double half = complete ? 0.0 : half_width(population);
-    return {value, value - half, value + half};
-  }
-
- private:
-  struct Term {
-    std::span<const double> values;
-    bool divides = false;
+/// The total without one unit of the sample; without none if its number is that of the sample's
+/// size.
+double total_without(std::size_t unit, const SampledTotal& total) {
+  if (total.measured.empty()) return total.certain;
+  const auto sum = [&](std::span<const double> values) {
+    const double all = std::accumulate(values.begin(), values.end(), 0.0);
+    return unit < values.size() ? all - values[unit] : all;
   };
-  // The product with one unit of the sample left out; none if its number is that of the sample's
-  // size.
-  [[nodiscard]] double without(std::size_t unit) const {
-    double product = known_;
-    for (const Term& term : terms_) {
-      const auto& values = term.values;
-      double sum = std::accumulate(values.begin(), values.end(), 0.0);
-      if (unit < values.size()) sum -= values[unit];
-      product = term.divides ? product / sum : product * sum;
-    }
-    return product;
-  }
-  [[nodiscard]] double half_width(std::size_t population) const {
-    const std::size_t sample = terms_.front().values.size();
-    const auto n = static_cast<double>(sample);
-    std::vector<double> products;
-    for (std::size_t unit = 0; unit < sample; ++unit) products.push_back(without(unit));
-    const double mean = std::accumulate(products.begin(), products.end(), 0.0) / n;
-    double squares = 0;
-    for (const double product : products) squares += (product - mean) * (product - mean);
-    const double correction = 1.0 - n / static_cast<double>(population);
-    return student_t_95(sample - 1) * std::sqrt(squares * (n - 1) / n * correction);
-  }
+  return total.certain + total.rough_total * sum(total.measured) / sum(total.rough);
+}
 
-  std::vector<Term> terms_;
-  double known_ = 1;
-};
+/// The mean of (value - mean)^power.
+double moment(std::span<const double> values, int power) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double sum = 0;
+  for (const double value : values) sum += std::pow(value - mean, power);
+  return sum / n;
+}
+
+std::size_t degrees_of_freedom(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  const double variance = moment(values, 2);
+  if (values.size() < 4 || variance == 0) return values.size() - 1;
+  const double excess = moment(values, 4) / (variance * variance) - 3;
+  const double kurtosis = ((n + 1) * excess + 6) * (n - 1) / ((n - 2) * (n - 3));
+  return static_cast<std::size_t>(2 / (2 / (n - 1) + std::max(kurtosis, 0.0) / n));
+}
+
+/// `without(unit)`: the estimate with that unit of the sample left out.
+template <typename Without>
+Estimate jackknife(std::size_t sample, std::size_t population, const Without& without) {
+  const double value = without(sample);
+  const bool complete = sample == population;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(value) || (sample < 2 && !complete)) return {nan, nan, nan};
+  if (complete) return {value, value, value};
+  const auto n = static_cast<double>(sample);
+  std::vector<double> values;
+  for (std::size_t unit = 0; unit < sample; ++unit) values.push_back(without(unit));
+  const double correction = 1.0 - n / static_cast<double>(population);
+  const double error = std::sqrt(moment(values, 2) * (n - 1) * correction);
+  const double half = student_t_95(degrees_of_freedom(values)) * error;
+  return {value, value - half, value + half};
+}
 
 }  // namespace
 
@@ -90,17 +85,15 @@ double student_t_95(std::size_t degrees) {
 }
 
 Estimate estimate_total(const SampledTotal& total, std::size_t population) {
-  Product product;
-  product.add(total, false);
-  return product.estimate(population);
+  return jackknife(total.measured.size(), population,
+                   [&](std::size_t unit) { return total_without(unit, total); });
 }
 
 Estimate estimate_ratio(const SampledTotal& numerator, const SampledTotal& denominator,
                         std::size_t population) {
-  Product product;
-  product.add(numerator, false);
-  product.add(denominator, true);
-  return product.estimate(population);
+  return jackknife(numerator.measured.size(), population, [&](std::size_t unit) {
+    return total_without(unit, numerator) / total_without(unit, denominator);
+  });
 }
 
 }  // namespace sheaf

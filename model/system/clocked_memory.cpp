@@ -23,7 +23,8 @@ ClockedMemory::ClockedMemory(const Config& config) : link_(config.link) {
 clocked::Cache ClockedMemory::make_cache(const CacheSpec& spec) {
   const auto number = static_cast<std::uint16_t>(requests_.size());
   const Cycles latency = link_.memory_latency;
-  const Cycles transfer = (spec.line + link_.memory_width - 1) / link_.memory_width;
+  const Bytes bytes = spec.line / spec.sectors;
+  const Cycles transfer = (bytes + link_.memory_width - 1) / link_.memory_width;
   requests_.push_back(std::make_unique<Link<LineRequest>>(
       fmt::format("cache_{}_to_l2", number),
       Link<LineRequest>::Spec{.latency = latency, .interval = 0}));

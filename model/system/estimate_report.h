@@ -10,9 +10,9 @@ namespace sheaf {
 
 // What the fidelities report that estimate.
 
-#define SHEAF_SAMPLE_VALUES(X)                                                       \
-  X(num_stretches, "stretches", "Stretches of tiles that the frame is divided into") \
-  X(num_drawn, "stretches", "Of these, drawn at random and measured in time")        \
+#define SHEAF_SAMPLE_VALUES(X)                                                            \
+  X(num_stretches, "stretches", "Stretches of tiles that the frame is divided into")      \
+  X(num_drawn, "stretches", "Of these, measured in time: the last, and others at random") \
   X(num_tiles_timed, "tiles", "Tiles simulated in time, those that warm up included")
 SHEAF_VALUES(SampleValues, SHEAF_SAMPLE_VALUES);
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "system/sampled_frame.h"
 
-#include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "system/estimate_report.h"
 #include "system/pipeline_parts.h"
@@ -69,32 +70,39 @@ void SampledFrame::end_tile(const Observation& now) {
 // What was measured of the stretches that were drawn, and what the untimed run says of them.
 SampledTotal SampledFrame::total(Observed what, std::vector<double>& measured,
                                  std::vector<double>& rough) const {
-  std::map<std::uint32_t, double> roughly;
-  SampledTotal total;
+  std::vector<double> roughly(sample_.num_stretches());
   const auto tiles = model_.tiles();
   for (std::uint32_t tile = 0; tile < tiles.size(); ++tile) {
-    const auto value = static_cast<double>(tiles[tile].seen[what]);
-    roughly[TileSample::stretch_of(tile)] += value;
-    total.rough_total += value;
+    roughly[TileSample::stretch_of(tile)] += static_cast<double>(tiles[tile].seen[what]);
   }
-  for (const std::uint32_t stretch : sample_.drawn()) {
+  const auto& drawn = sample_.drawn();
+  for (const std::uint32_t stretch : drawn) {
     measured.push_back(static_cast<double>(measured_.at(stretch)[what]));
     rough.push_back(roughly[stretch]);
   }
-  total.measured = measured;
-  total.rough = rough;
-  return total;
+  const std::size_t random = drawn.size() - 1;  // the last was not left to chance
+  return {std::span(measured).first(random), std::span(rough).first(random),
+          std::accumulate(roughly.begin(), roughly.end() - 1, 0.0), measured.back()};
+}
+
+// How many stretches there are to draw from. Where tiles overlap, what is measured of a stretch
+// depends on which others were drawn: an endless population of possible measurements.
+std::size_t SampledFrame::population() const {
+  const std::size_t all = sample_.num_stretches();
+  const bool repeatable = config_.flow.control == FlowPolicy::kTile;
+  return repeatable || sample_.drawn().size() == all ? all - 1
+                                                     : std::numeric_limits<std::size_t>::max();
 }
 
 Estimate SampledFrame::estimate(const Quantity& quantity) const {
   std::vector<double> measured;
   std::vector<double> rough;
   const SampledTotal numerator = total(quantity.total, measured, rough);
-  if (quantity.per == Observed::kNone) return estimate_total(numerator, sample_.num_stretches());
+  if (quantity.per == Observed::kNone) return estimate_total(numerator, population());
   std::vector<double> measured_per;
   std::vector<double> rough_per;
   const SampledTotal denominator = total(quantity.per, measured_per, rough_per);
-  return estimate_ratio(numerator, denominator, sample_.num_stretches());
+  return estimate_ratio(numerator, denominator, population());
 }
 
 void SampledFrame::report(StatsTree& stats) const {

@@ -40,6 +40,7 @@ class SampledFrame final : public TileObserver {
   void end_tile(const Observation& now);
   [[nodiscard]] SampledTotal total(Observed what, std::vector<double>& measured,
                                    std::vector<double>& rough) const;
+  [[nodiscard]] std::size_t population() const;
 
   const Config config_;
   const TileSample sample_;

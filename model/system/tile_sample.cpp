@@ -17,16 +17,17 @@ TileSample::TileSample(std::uint32_t num_tiles, double share, std::uint64_t seed
   const auto size =
       std::min(num_stretches(), std::max(kFewest, static_cast<std::uint32_t>(wanted)));
   // The first part of Fisher and Yates' shuffle.
-  std::vector<std::uint32_t> all(num_stretches());
-  std::iota(all.begin(), all.end(), 0U);
+  std::vector<std::uint32_t> others(num_stretches() - 1);
+  std::iota(others.begin(), others.end(), 0U);
   Random random(seed);
-  for (std::uint32_t i = 0; i < size; ++i) {
-    const auto other = i + static_cast<std::uint32_t>(random.below(num_stretches() - i));
-    std::swap(all[i], all[other]);
-    drawn_.push_back(all[i]);
-    is_drawn_[all[i]] = true;
+  for (std::uint32_t i = 0; i + 1 < size; ++i) {
+    const auto other = i + static_cast<std::uint32_t>(random.below(others.size() - i));
+    std::swap(others[i], others[other]);
+    drawn_.push_back(others[i]);
   }
   std::ranges::sort(drawn_);
+  drawn_.push_back(num_stretches() - 1);
+  for (const std::uint32_t stretch : drawn_) is_drawn_[stretch] = true;
   list_visits(warm_up);
 }
 
@@ -41,7 +42,6 @@ void TileSample::list_visits(std::uint32_t warm_up) {
     const std::uint32_t first = stretch * kStretch;
     list(first - std::min(first, warm_up), first + kStretch);
   }
-  list(next, next + 1);
 }
 
 }  // namespace sheaf

@@ -9,8 +9,9 @@
 
 namespace sheaf {
 
-/// Which tiles of a frame are simulated in time: a simple random sample, without replacement, of
-/// stretches of kStretch tiles that follow each other, with those that prepare and end them.
+/// Which tiles of a frame are simulated in time: stretches of kStretch tiles that follow each
+/// other, with those that prepare them. The last stretch always is, since the machine runs empty in
+/// it and no other can stand for it; of the others a simple random sample, without replacement.
 class TileSample {
  public:
   static constexpr std::uint32_t kStretch = 4;
@@ -25,13 +26,12 @@ class TileSample {
   [[nodiscard]] std::uint32_t num_stretches() const {
     return (num_tiles_ + kStretch - 1) / kStretch;
   }
-  /// In ascending order.
+  /// In ascending order, the last stretch at the end.
   [[nodiscard]] const std::vector<std::uint32_t>& drawn() const { return drawn_; }
   [[nodiscard]] static std::uint32_t stretch_of(std::uint32_t tile) { return tile / kStretch; }
   [[nodiscard]] bool counts(std::uint32_t tile) const { return is_drawn_[stretch_of(tile)]; }
 
-  /// All tiles that are simulated in time, in ascending order. One follows the last stretch, so
-  /// that what the machine does when everything ends is not taken for that stretch's.
+  /// All tiles that are simulated in time, in ascending order.
   [[nodiscard]] const std::vector<std::uint32_t>& visits() const { return visits_; }
 
  private:

@@ -119,6 +119,21 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"dram.latency=1", "dram.bytes_per_cycle=1"},
                     Settings{"film_cache.line=16", "film_cache.mshrs=1"}));
 
+// Each option that a cache has, alone.
+INSTANTIATE_TEST_SUITE_P(
+    CacheOptions, ClockedMachines,
+    testing::Values(all_caches("sectors=2") + Settings{"l2.sectors=2", "l2.capacity=16KiB"},
+                    all_caches("banks=4"), all_caches("ports=2"), Settings{"l2.ports=2"},
+                    all_caches("mshr_targets=1"), Settings{"l2.mshr_targets=1", "l2.mshrs=2"},
+                    Settings{"film_cache.write_policy=through"},
+                    Settings{"film_cache.write_allocate=false"},
+                    Settings{"film_cache.write_buffer=1", "film_cache.line=16"},
+                    Settings{"l2.write_policy=through", "l2.capacity=16KiB"},
+                    Settings{"l2.write_allocate=true", "l2.capacity=16KiB", "film_cache.line=16"},
+                    Settings{"l2.write_buffer=1", "l2.capacity=16KiB", "film_cache.line=16"},
+                    Settings{"l2.write_buffer=1", "l2.mode=absent", "dram.model=DDR4-2400",
+                             "film_cache.write_policy=through"}));
+
 INSTANTIATE_TEST_SUITE_P(
     Dram, ClockedMachines,
     testing::Values(Settings{"dram.model=DDR4-2400"},

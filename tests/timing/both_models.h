@@ -141,7 +141,7 @@ class UnitBench : public Agent {
   std::vector<std::shared_ptr<void>> links_;
 };
 
-/// What stands behind a private cache: answers its reads in any order, after any time.
+/// What stands behind a private cache: answers its requests in any order, after any time.
 template <typename M>
 class LineServer {
  public:
@@ -152,8 +152,10 @@ class LineServer {
   /// `requests` may be shared with other caches; only this one's are taken care of here.
   void take(const LineRequest& request, Cycles now) {
     if (request.requester != number_) return;
-    bench_.note("request", now, request.requester, request.address, request.write ? 1 : 0);
+    bench_.note("request", now, request.requester, request.address, request.bytes,
+                request.write ? 1 : 0);
     if (!request.write) pending_.push_back(request.address);
+    if (request.acknowledged) pending_.push_back(LineResponse::kWriteTaken);
   }
   void answer(typename Bench::template Link<LineResponse>& responses, Cycles now) {
     // Towards the end everything at once, so that all comes to rest.

@@ -193,6 +193,7 @@ struct ShaderBench {
 template <typename M>
 struct FilmBench {
   explicit FilmBench(std::uint64_t seed) : bench(seed), cache(random_cache(bench.random)) {
+    choose_writes(bench.random, cache.write);
     in = &bench.template to_unit<FilmBatch*>("in", {.capacity = 3, .latency = kLatency});
     if constexpr (M::kTimed) {
       unit = std::make_unique<Unit>("film", cache, *film, memory, batches, flow, *bench.domain,
@@ -327,7 +328,7 @@ TEST_P(ShadingUnits, FilmIsTheSame) {
 TEST_P(ShadingUnits, ShaderCacheIsTheSame) {
   expect_both_alike<ShaderCacheBench>(GetParam());
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, ShadingUnits, testing::Range<std::uint64_t>(0, 6));
+INSTANTIATE_TEST_SUITE_P(Seeds, ShadingUnits, testing::Range<std::uint64_t>(0, 12));
 
 }  // namespace
 }  // namespace sheaf::test

@@ -84,32 +84,34 @@ void ContextUnit::occupy(int context, Cycles cycles, Cycles latency, Cycles now)
 bool ContextUnit::fetch(int context, Cache& cache, const std::vector<std::uint64_t>& lines,
                         DataKind kind, Cycles now) {
   Context& step = of(context);
-  lookups_ = 0;
-  while (step.next_line < lines.size()) {
-    ++lookups_;
-    const auto result = cache.access(lines[step.next_line], kind, context, false, now);
-    if (result == Cache::Result::kNoMshr) break;
+  const std::size_t first = step.next_line;
+  bool has_room = true;
+  while (has_room && step.next_line < lines.size()) {
+    const auto result = cache.read(lines[step.next_line], kind, context, now);
+    has_room = result != Cache::Result::kNoRoom;
     if (result == Cache::Result::kPending) ++step.num_pending;
-    ++step.next_line;
+    if (has_room) ++step.next_line;
   }
+  const std::size_t looked_up = step.next_line - first + (has_room ? 0 : 1);
+  lookup_cycles_ = cache.port_cycles(std::span(lines).subspan(first, looked_up));
   if (step.next_line == lines.size() && step.num_pending == 0) {
     step.next_line = 0;
     return true;
   }
   step.state = State::kParked;
-  take_port(std::max(spec_.initiation_interval, lookups_), now);
+  take_port(std::max(spec_.initiation_interval, lookup_cycles_), now);
   busy_until_ = std::max(busy_until_, port_free_);
   return false;
 }
 
 void ContextUnit::take_lines(Cache& cache, Cycles now) {
-  while (cache.line_has_arrived(now)) {
-    const Cache::Arrival arrival = cache.take_line(now);
+  while (cache.has_response(now)) {
+    const Cache::Arrival arrival = cache.take_response(now);
     for (int i = 0; i < static_cast<int>(contexts_.size()); ++i) {
       const bool of_line = (arrival.of_line >> i & 1U) != 0;
-      const bool of_mshr = (arrival.of_mshr >> i & 1U) != 0;
+      const bool of_room = (arrival.of_room >> i & 1U) != 0;
       if (of_line) --of(i).num_pending;
-      if ((of_line || of_mshr) && of(i).num_pending == 0) {
+      if ((of_line || of_room) && of(i).num_pending == 0) {
         ++pipeline_stats_.num_reissues;
         wait_until(i, now);
       }

@@ -46,12 +46,12 @@ class ContextUnit : public Unit {
   /// A step takes the port for `cycles`, and is done `latency` after its last one.
   void occupy(int context, Cycles cycles, Cycles latency, Cycles now);
   /// Looks up the lines of a context's step that it has not asked for yet. If all are there, true.
-  /// Else the step takes the port for one initiation interval, or a cycle a look-up, and is to be
+  /// Else the step takes the port for one initiation interval, or while it looks up, and is to be
   /// issued again when take_lines() has brought the last of them.
   bool fetch(int context, Cache& cache, const std::vector<std::uint64_t>& lines, DataKind kind,
              Cycles now);
-  /// Look-ups that the last fetch() made.
-  [[nodiscard]] Cycles lookups() const { return lookups_; }
+  /// Cycles that the last fetch() took of the cache's ports.
+  [[nodiscard]] Cycles lookup_cycles() const { return lookup_cycles_; }
   void take_lines(Cache& cache, Cycles now);
 
   const UnitSpec spec_;
@@ -75,7 +75,7 @@ class ContextUnit : public Unit {
   std::deque<int> queue_;  ///< for the issue port
   Cycles port_free_ = 0;
   Cycles busy_until_ = 0;
-  Cycles lookups_ = 0;
+  Cycles lookup_cycles_ = 0;
   PipelineStats pipeline_stats_;
 };
 

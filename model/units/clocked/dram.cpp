@@ -8,10 +8,10 @@
 
 namespace sheaf::clocked {
 
-Address Dram::take_line() {
-  const Address address = lines_.begin()->second;
-  lines_.erase(lines_.begin());
-  return address;
+Dram::Answer Dram::take_answer() {
+  const Answer answer = *answers_.begin();
+  answers_.erase(answers_.begin());
+  return answer;
 }
 
 void Dram::count_request(const DramRequest& request) {
@@ -20,10 +20,10 @@ void Dram::count_request(const DramRequest& request) {
 }
 
 void Dram::complete(const DramRequest& request, Cycles asked, Cycles at) {
+  answers_.insert({at, request.address, request.write});
   if (request.write) return;
   stats_.sum_read_latency += at - asked;
   stats_.max_read_latency = std::max(stats_.max_read_latency, at - asked);
-  lines_.emplace(at, request.address);
 }
 
 void FixedDram::tick(Cycles now) {

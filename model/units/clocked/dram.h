@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "base/object_pool.h"
 #include "config/config.h"
@@ -21,7 +21,7 @@ struct DramRequest {
   bool write = false;
 };
 
-/// What stands behind the L2. Reads come back as lines.
+/// What stands behind the L2, and answers what it is asked.
 class Dram {
  public:
   /// `request_latency`: from the L2's look-up to the memory.
@@ -35,11 +35,18 @@ class Dram {
   /// No request is on its way or being served.
   [[nodiscard]] virtual bool is_idle() const = 0;
 
-  [[nodiscard]] bool line_has_arrived(Cycles now) const {
-    return !lines_.empty() && lines_.begin()->first <= now;
+  /// A line that has been read, or a write that has been done.
+  struct Answer {
+    Cycles at = 0;
+    Address address = 0;
+    bool write = false;
+    auto operator<=>(const Answer&) const = default;
+  };
+  [[nodiscard]] bool has_answer(Cycles now) const {
+    return !answers_.empty() && answers_.begin()->at <= now;
   }
-  /// The line that came first, of those of a cycle the one of the lowest address.
-  Address take_line();
+  /// The one that came first, of those of a cycle the one of the lowest address.
+  Answer take_answer();
 
   /// In core cycles, as of core cycle `end`.
   [[nodiscard]] virtual DramStats stats(Cycles end) const = 0;
@@ -54,7 +61,7 @@ class Dram {
   DramStats stats_;
 
  private:
-  std::set<std::pair<Cycles, Address>> lines_;  ///< read, with the time at which they are there
+  std::multiset<Answer> answers_;
 };
 
 /// Data flows `latency` after the request, or when the bus is free.

@@ -50,8 +50,8 @@ class FilmUnit final : public Unit {
   State state_ = State::kAdding;
   FilmBatch* batch_ = nullptr;  ///< being added
   std::size_t position_ = 0;
-  std::uint64_t lines_asked_ = 0;  ///< of the contribution at position_
-  bool waits_for_mshr_ = false;
+  Bytes bytes_asked_ = 0;  ///< of the contribution at position_
+  bool waits_for_room_ = false;
   std::vector<std::uint64_t> dirty_lines_;
   FilmStats stats_;
 };

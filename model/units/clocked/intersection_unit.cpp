@@ -40,13 +40,13 @@ void IntersectionUnit::issue(int context, Cycles now) {
       return;
     }
     j.issued = true;
-    return occupy(context, std::max<Cycles>(1, lookups()), cache_.hit_latency(), now);
+    return occupy(context, std::max<Cycles>(1, lookup_cycles()), cache_.hit_latency(), now);
   }
   const std::uint32_t triangle = scene_.tree.leaf_triangles[first + j.tested];
   const Address address = scene_.memory.triangle(triangle);
   if (!fetch_bytes(context, address, MemoryMap::kTriangleSize, DataKind::kTriangle, now)) return;
   j.issued = true;
-  occupy(context, std::max(slots_per_step_ * spec_.initiation_interval, lookups()),
+  occupy(context, std::max(slots_per_step_ * spec_.initiation_interval, lookup_cycles()),
          cache_.hit_latency() + spec_.latency, now);
 }
 

@@ -5,27 +5,33 @@
 #include <algorithm>
 
 namespace sheaf::clocked {
+
 L2Cache::L2Cache(const L2Spec& spec, Dram& dram)
-    : spec_(spec), dram_(dram), hits_("hits", {.latency = spec.hit_latency, .interval = 0}) {
+    : spec_(spec),
+      dram_(dram),
+      answered_("answered", {.latency = spec.hit_latency, .interval = 0}) {
   for (std::uint32_t bank = 0; bank < spec.banks; ++bank) {
     ArrayShape shape = bank_shape(spec, spec.banks);
     shape.seed += bank;
-    banks_.push_back({CacheArray(shape), {}, {}, 0, false});
+    banks_.push_back({CacheArray(shape), {}, {}});
   }
 }
 
 void L2Cache::tick(Cycles now) {
-  while (hits_.has_arrived(now)) {
-    const LineRequest hit = hits_.read(now);
-    out_responses[hit.requester]->write({hit.address}, now);
+  while (answered_.has_arrived(now)) {
+    const LineRequest request = answered_.read(now);
+    const Address address = request.write ? LineResponse::kWriteTaken : request.address;
+    out_responses[request.requester]->write({address}, now);
   }
-  while (dram_.line_has_arrived(now)) fill(dram_.take_line(), now);
+  take_answers(now);
   for (Bank& bank : banks_) {
-    if (bank.queue.empty() || bank.blocked || bank.free_at > now) continue;
-    if (serve(bank, bank.queue.front(), now)) bank.queue.pop_front();
+    bank.ports_taken = 0;
+    while (!bank.queue.empty() && can_take(bank) && serve(bank, bank.queue.front(), now)) {
+      bank.queue.pop_front();
+    }
   }
   for (Link<LineRequest>* requests : in_requests) {
-    while (requests->has_arrived(now)) accept(requests->read(now), now);
+    while (requests->has_arrived(now)) arrive(requests->read(now), now);
   }
   for (const Bank& bank : banks_) {
     stats_.queue_occupancy_cycles += bank.queue.size();
@@ -33,103 +39,174 @@ void L2Cache::tick(Cycles now) {
   }
 }
 
-void L2Cache::accept(const LineRequest& what, Cycles now) {
+void L2Cache::take_answers(Cycles now) {
+  while (dram_.has_answer(now)) {
+    const Dram::Answer answer = dram_.take_answer();
+    if (!answer.write) {
+      fill(answer.address, now);
+    } else if (spec_.write.buffer != 0) {
+      --place_of(line_of(answer.address)).bank.writes_out;
+    }
+  }
+}
+
+void L2Cache::arrive(const LineRequest& what, Cycles now) {
   (what.write ? stats_.bytes_received : stats_.bytes_requested) += what.bytes;
-  Bank& bank = bank_of(line_of(what.address));
+  Bank& bank = place_of(line_of(what.address)).bank;
   const Request request{what, now};
-  if (bank.queue.empty() && bank.free_at <= now && serve(bank, request, now)) return;
+  if (bank.queue.empty() && can_take(bank) && serve(bank, request, now)) return;
   bank.queue.push_back(request);
+}
+
+bool L2Cache::can_take(const Bank& bank) const {
+  const bool full = spec_.write.buffer != 0 && bank.writes_out >= spec_.write.buffer;
+  return !bank.blocked && !full && bank.ports_taken < spec_.ports;
 }
 
 // False if the request has to wait for an MSHR.
 bool L2Cache::serve(Bank& bank, const Request& request, Cycles now) {
-  if (request.what.write) {
-    serve_write(bank, request.what, now);
-  } else if (!serve_read(bank, request.what, now)) {
-    ++stats_.num_mshr_stalls;
-    bank.blocked = true;
-    return false;
-  }
+  const bool done = request.what.write ? serve_write(bank, request.what, now)
+                                       : serve_read(bank, request.what, now);
+  if (!done) return false;
   ++stats_.num_accesses;
   ++kind_of(request.what).num_accesses;
   stats_.bank_wait_cycles += now - request.arrival;
-  bank.free_at = now + 1;
+  ++bank.ports_taken;
   return true;
 }
 
 bool L2Cache::serve_read(Bank& bank, const LineRequest& request, Cycles now) {
   const std::uint64_t line = line_of(request.address);
-  if (spec_.mode == CacheMode::kPerfect || bank.array.touch(line / spec_.banks)) {
-    ++stats_.num_hits;
-    ++kind_of(request).num_hits;
-    hits_.write(request, now);
+  if (spec_.mode == CacheMode::kPerfect || bank.array.touch(place_of(line).index)) {
+    count_hit(request);
+    answered_.write(request, now);
     return true;
   }
-  const auto mshr = std::find_if(bank.mshrs.begin(), bank.mshrs.end(),
-                                 [&](const Mshr& m) { return m.line == line; });
-  if (mshr != bank.mshrs.end()) {
+  if (Mshr* const mshr = find_mshr(bank, line)) {
+    const bool full = spec_.mshr_targets != 0 && mshr->waiters.size() >= spec_.mshr_targets;
+    if (full) return wait_for_room(bank, stats_.num_target_stalls);
     ++stats_.num_merges;
     mshr->waiters.push_back(request);
     return true;
   }
-  if (bank.mshrs.size() == spec_.mshrs) return false;
-  ++stats_.num_misses;
-  kind_of(request).bytes_read += spec_.line;
-  bank.mshrs.push_back({line, now, {request}});
-  send_to_dram(line * spec_.line, spec_.line, false, now);
+  if (bank.mshrs.size() == spec_.mshrs) return wait_for_room(bank, stats_.num_mshr_stalls);
+  take_mshr(bank, request, now).waiters.push_back(request);
   return true;
 }
 
-// A line that is not there goes on to DRAM and takes no place.
-void L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
-  const std::uint64_t index = line_of(request.address) / spec_.banks;
-  if (spec_.mode == CacheMode::kPerfect || bank.array.touch(index)) {
-    ++stats_.num_hits;
-    ++kind_of(request).num_hits;
-    if (spec_.mode == CacheMode::kNormal) bank.array.mark_dirty(index);
-    return;
+bool L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
+  const std::uint64_t index = place_of(line_of(request.address)).index;
+  const bool through = spec_.write.policy == WritePolicy::kThrough;
+  if (spec_.mode == CacheMode::kPerfect) {
+    count_hit(request);
+  } else if (bank.array.touch(index)) {
+    count_hit(request);
+    through ? pass_on(request, now) : bank.array.mark_dirty(index);
+  } else if (spec_.mode == CacheMode::kNormal && spec_.write.allocate) {
+    if (!write_missing(bank, request, now)) return false;
+    if (through) pass_on(request, now);
+  } else {
+    ++stats_.num_misses;
+    pass_on(request, now);
   }
+  if (request.acknowledged) answered_.write(request, now);
+  return true;
+}
+
+// Gives a place to a line that is written: at once if all of it is, or when it has been fetched.
+bool L2Cache::write_missing(Bank& bank, const LineRequest& request, Cycles now) {
+  const std::uint64_t line = line_of(request.address);
+  const bool dirty = spec_.write.policy == WritePolicy::kBack;
+  if (Mshr* const mshr = find_mshr(bank, line)) {
+    ++stats_.num_merges;
+    mshr->dirty |= dirty;
+  } else if (request.bytes == line_size()) {
+    ++stats_.num_misses;
+    put(line, dirty, now);
+  } else {
+    if (bank.mshrs.size() == spec_.mshrs) return wait_for_room(bank, stats_.num_mshr_stalls);
+    take_mshr(bank, request, now).dirty = dirty;
+  }
+  return true;
+}
+
+L2Cache::Mshr* L2Cache::find_mshr(Bank& bank, std::uint64_t line) {
+  const auto found = std::find_if(bank.mshrs.begin(), bank.mshrs.end(),
+                                  [&](const Mshr& mshr) { return mshr.line == line; });
+  return found == bank.mshrs.end() ? nullptr : &*found;
+}
+
+// For a line that is asked of DRAM; there must be one free.
+L2Cache::Mshr& L2Cache::take_mshr(Bank& bank, const LineRequest& request, Cycles now) {
+  const std::uint64_t line = line_of(request.address);
   ++stats_.num_misses;
-  kind_of(request).bytes_written += request.bytes;
-  send_to_dram(request.address, request.bytes, true, now);
+  kind_of(request).bytes_read += line_size();
+  send_to_dram(line * line_size(), line_size(), false, now);
+  bank.mshrs.push_back({line, now, false, {}});
+  return bank.mshrs.back();
+}
+
+bool L2Cache::wait_for_room(Bank& bank, std::uint64_t& counter) {
+  ++counter;
+  bank.blocked = true;
+  return false;
+}
+
+void L2Cache::count_hit(const LineRequest& request) {
+  ++stats_.num_hits;
+  ++kind_of(request).num_hits;
 }
 
 void L2Cache::fill(Address address, Cycles now) {
   const std::uint64_t line = line_of(address);
-  Bank& bank = bank_of(line);
-  const auto mshr = std::find_if(bank.mshrs.begin(), bank.mshrs.end(),
-                                 [&](const Mshr& m) { return m.line == line; });
-  for (const LineRequest& waiter : mshr->waiters) {
+  Bank& bank = place_of(line).bank;
+  const Mshr mshr = *find_mshr(bank, line);
+  std::erase_if(bank.mshrs, [&](const Mshr& m) { return m.line == line; });
+  stats_.sum_miss_latency += now - mshr.since;
+  for (const LineRequest& waiter : mshr.waiters) {
     out_responses[waiter.requester]->write({waiter.address}, now);
   }
-  stats_.sum_miss_latency += now - mshr->since;
-  bank.mshrs.erase(mshr);
   bank.blocked = false;
-  const CacheArray::Victim victim = bank.array.fill(line / spec_.banks, false);
-  if (!victim.valid || !victim.dirty) return;
-  ++stats_.num_writebacks;
-  const std::uint64_t victim_line = victim.line * spec_.banks + line % spec_.banks;
-  send_to_dram(victim_line * spec_.line, spec_.line, true, now);
+  put(line, mshr.dirty, now);
+}
+
+// Puts a line in; what of another one is dirty leaves for DRAM.
+void L2Cache::put(std::uint64_t line, bool dirty, Cycles now) {
+  const Place place = place_of(line);
+  const CacheArray::Victim victim = place.bank.array.fill(place.index, dirty);
+  const std::uint64_t bank = line / spec_.sectors % spec_.banks;
+  const std::uint64_t first = (victim.line / spec_.sectors * spec_.banks + bank) * spec_.sectors;
+  for (std::uint32_t sector = 0; sector < spec_.sectors; ++sector) {
+    if ((victim.dirty >> sector & 1U) == 0) continue;
+    ++stats_.num_writebacks;
+    send_to_dram((first + sector) * line_size(), line_size(), true, now);
+  }
+}
+
+// Written data that leave for DRAM without a line.
+void L2Cache::pass_on(const LineRequest& request, Cycles now) {
+  kind_of(request).bytes_written += request.bytes;
+  send_to_dram(request.address, request.bytes, true, now);
 }
 
 void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles now) {
   (write ? stats_.bytes_written : stats_.bytes_read) += bytes;
+  if (write && spec_.write.buffer != 0) ++place_of(line_of(address)).bank.writes_out;
   dram_.requests.write({address, bytes, write}, now);
+}
+
+L2Cache::Place L2Cache::place_of(std::uint64_t line) {
+  const std::uint64_t tag = line / spec_.sectors;
+  return {banks_[tag % spec_.banks], tag / spec_.banks * spec_.sectors + line % spec_.sectors};
 }
 
 bool L2Cache::is_idle() const {
   const bool idle = std::all_of(banks_.begin(), banks_.end(), [](const Bank& bank) {
-    return bank.queue.empty() && bank.mshrs.empty();
+    return bank.queue.empty() && bank.mshrs.empty() && bank.writes_out == 0;
   });
-  return idle && hits_.size() == 0 &&
+  return idle && answered_.size() == 0 &&
          std::all_of(in_requests.begin(), in_requests.end(),
                      [](const Link<LineRequest>* requests) { return requests->size() == 0; });
-}
-
-bool L2Cache::is_moving() const {
-  return hits_.size() != 0 || std::any_of(banks_.begin(), banks_.end(), [](const Bank& bank) {
-           return !bank.mshrs.empty() || (!bank.queue.empty() && !bank.blocked);
-         });
 }
 
 }  // namespace sheaf::clocked

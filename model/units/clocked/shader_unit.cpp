@@ -89,7 +89,7 @@ void ShaderUnit::issue(int context, Cycles now) {
   Cache& cache = texels ? *textures_ : attributes_;
   if (!fetch(context, cache, w.lines, kind, now)) return;
   w.issued = true;
-  occupy(context, std::max<Cycles>(1, lookups()), cache.hit_latency(), now);
+  occupy(context, std::max<Cycles>(1, lookup_cycles()), cache.hit_latency(), now);
 }
 
 void ShaderUnit::send_output(int context, Cycles now) {

@@ -53,6 +53,30 @@ TEST(SampleEstimate, HasTheIntervalOfTheJackknife) {
   EXPECT_NEAR(estimate.value - estimate.low, half, 1e-4);
 }
 
+TEST(SampleEstimate, AddsWhatIsCertain) {
+  const Values measured{2, 3, 7};
+  const Values rough{1, 2, 3};
+  const Estimate without = estimate_total({measured, rough, 24}, 12);
+  const Estimate with = estimate_total({measured, rough, 24, 1000}, 12);
+  EXPECT_DOUBLE_EQ(with.value, without.value + 1000);
+  EXPECT_NEAR(with.high, without.high + 1000, 1e-9);
+  const Estimate alone = estimate_total({{}, {}, 0, 5}, 0);
+  EXPECT_EQ(alone.value, 5);
+  EXPECT_EQ(alone.low, alone.high);
+}
+
+// By hand, of measured 1, 1, 1, 1, 6 and rough figures of 1: estimates without one unit are five
+// times 2.25 (four of them) and 1; their variance is 0.25 (mean 2, squares 4 * 0.0625 + 1 over 5),
+// fourth moment (4 * 0.25^4 + 1) / 5 = 0.203125, excess 0.25, so that G2 = (6 * 0.25 + 6) * 4 / 6 =
+// 5 and the degrees are 2 / (2 / 4 + 5 / 5) = 1.33: one.
+TEST(SampleEstimate, CountsFewerDegreesWhereOneUnitMakesUpTheVariance) {
+  const Values measured{1, 1, 1, 1, 6};
+  const Values rough{1, 1, 1, 1, 1};
+  const Estimate estimate = estimate_total({measured, rough, 1}, 1000000);
+  EXPECT_DOUBLE_EQ(estimate.value, 2);
+  EXPECT_NEAR(estimate.high - estimate.value, 12.7062 * std::sqrt(0.25 * 4), 1e-3);
+}
+
 TEST(SampleEstimate, OfARatioCorrectsBothTotals) {
   const Values hits{2, 4};
   const Values rough_hits{1, 2};
