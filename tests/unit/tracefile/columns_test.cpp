@@ -53,6 +53,23 @@ TEST(Columns, StandLowestByteFirstAndInPlanes) {
   EXPECT_EQ(raw, (ByteVector{2, 0, 0, 0, 0xAC, 0x02, 8, 0, 0, 0, 1, 0, 2, 0, 3, 0, 4, 0}));
 }
 
+// Each length, and both sides of each border between two.
+TEST(Columns, NumbersHaveSevenBitsAByte) {
+  for (int bits = 0; bits < 64; ++bits) {
+    for (const std::uint64_t value : {std::uint64_t{1} << bits, (std::uint64_t{1} << bits) - 1}) {
+      ByteVector expected;
+      std::uint64_t rest = value;
+      for (; rest >= 0x80; rest >>= 7) {
+        expected.push_back(static_cast<std::uint8_t>(rest % 0x80 + 0x80));
+      }
+      expected.push_back(static_cast<std::uint8_t>(rest));
+      const NumberColumn column = column_of({value});
+      const ByteSpan found = column.bytes();
+      EXPECT_EQ(ByteVector(found.begin(), found.end()), expected) << value;
+    }
+  }
+}
+
 TEST(Columns, ZigzagIsItsOwnInverseAtTheEnds) {
   for (const std::int64_t value :
        {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1},

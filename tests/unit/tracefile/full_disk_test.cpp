@@ -58,6 +58,7 @@ TEST_P(FullDisk, KeepsNobodyWaiting) {
   {
     TraceWriter writer(scratch / "full.trace", {});
     for (int i = 0; i < 100; ++i) writer.add(0, 1, noise());
+    EXPECT_TRUE(writer.failed()) << "the run would have gone on to its end for nothing";
     EXPECT_THROW(writer.finish("{}"), Error);
   }
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
