@@ -40,11 +40,11 @@ void ClockedMachine::build_memory() {
     dram_ = std::make_unique<clocked::BankedDram>(
         config_.l2.hit_latency, resolve_dram(config_.dram), config_.clock.frequency);
   }
-  l2_ = std::make_unique<clocked::L2Cache>(config_.l2, *dram_);
+  l2_ = std::make_unique<clocked::L2Cache>(config_.l2, config_.crossbar, *dram_);
 }
 
-// A private cache with its links to the L2 and back.
-clocked::Cache ClockedMachine::make_cache(const CacheSpec& spec) {
+// The number of one more requester at the L2, with its links there and back.
+std::uint16_t ClockedMachine::add_requester(const CacheSpec& spec) {
   const auto number = static_cast<std::uint16_t>(requests_.size());
   const Cycles latency = config_.link.memory_latency;
   const Bytes bytes = spec.line / spec.sectors;
@@ -57,7 +57,12 @@ clocked::Cache ClockedMachine::make_cache(const CacheSpec& spec) {
       Link<LineResponse>::Spec{.latency = latency, .interval = transfer}));
   l2_->in_requests.push_back(requests_.back().get());
   l2_->out_responses.push_back(links_.l2_to_caches.back().get());
-  return {spec, number, *requests_.back(), *links_.l2_to_caches.back()};
+  return number;
+}
+
+clocked::Cache ClockedMachine::make_cache(const CacheSpec& spec) {
+  const std::uint16_t number = add_requester(spec);
+  return {spec, number, *requests_[number], *links_.l2_to_caches[number]};
 }
 
 void ClockedMachine::build_units() {
@@ -105,10 +110,13 @@ void ClockedMachine::build_regrouper() {
       Link<RayPacket*>::Spec{.capacity = config_.packet_fifo.depth,
                              .latency = config_.packet_fifo.latency +
                                         (plan_.ray_cache ? config_.ray_cache.latency : 0)});
+  const bool spills = config_.flow.control == FlowPolicy::kSpill;
   links_.spawned_rays = std::make_unique<Link<SpawnBundle*>>(
-      "spawned_rays", Link<SpawnBundle*>::Spec{.latency = config_.link.latency});
+      "spawned_rays", Link<SpawnBundle*>::Spec{.capacity = spills ? config_.link.depth : kNeverFull,
+                                               .latency = config_.link.latency});
+  if (spills) build_spill();
   const auto attach = [&](auto& unit) {
-    unit.in_bundles = links_.spawned_rays.get();
+    unit.in_bundles = spills ? links_.spill_to_regrouper.get() : links_.spawned_rays.get();
     unit.out_packets = links_.packet_fifo.get();
   };
   if (plan_.ray_cache) {
@@ -121,6 +129,24 @@ void ClockedMachine::build_regrouper() {
     spawn_router_ = std::make_unique<clocked::SpawnRouter>("spawn_router", packets_, bundles_);
     attach(*spawn_router_);
   }
+}
+
+// The queue that spills stands right before whoever takes the rays in.
+void ClockedMachine::build_spill() {
+  links_.spill_to_regrouper = std::make_unique<Link<SpawnBundle*>>(
+      "spill_to_regrouper", Link<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
+  CacheSpec line;
+  line.line = config_.l2.line / config_.l2.sectors;
+  const std::uint16_t number = add_requester(line);
+  spill_ = std::make_unique<clocked::SpillUnit>(
+      "spill",
+      SpillUnit::Spec{.queue = config_.flow.spill_queue,
+                      .line = line.line,
+                      .base = scene_.memory.region(DataKind::kSpilledRay).base,
+                      .requester = number},
+      *requests_[number], *links_.l2_to_caches[number]);
+  spill_->in_bundles = links_.spawned_rays.get();
+  spill_->out_bundles = links_.spill_to_regrouper.get();
 }
 
 // One more link with `link.depth` credits.
@@ -204,6 +230,7 @@ void ClockedMachine::list_units() {
   for (const auto& unit : shader_units_) units_.push_back(unit.get());
   if (shader_cache_) units_.push_back(shader_cache_.get());
   units_.push_back(film_.get());
+  if (spill_) units_.push_back(spill_.get());
   if (ray_cache_) units_.push_back(ray_cache_.get());
   if (spawn_router_) units_.push_back(spawn_router_.get());
 }

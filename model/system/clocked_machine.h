@@ -16,6 +16,7 @@
 #include "units/clocked/shader_cache.h"
 #include "units/clocked/shader_unit.h"
 #include "units/clocked/spawn_router.h"
+#include "units/clocked/spill_unit.h"
 #include "units/clocked/traversal_unit.h"
 
 namespace sheaf {
@@ -31,6 +32,7 @@ struct ClockedKind {
   using PacketArbiter = clocked::PacketArbiter;
   using RayCache = clocked::RayCache;
   using SpawnRouter = clocked::SpawnRouter;
+  using Spill = clocked::SpillUnit;
   using ShaderCache = clocked::ShaderCache;
   using Film = clocked::FilmUnit;
   using L2 = clocked::L2Cache;
@@ -56,11 +58,13 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void build_memory();
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void list_units();
   template <typename T>
   clocked::Link<T>& add_link(Channels<T>& links, const std::string& name);
+  std::uint16_t add_requester(const CacheSpec& spec);
   [[nodiscard]] clocked::Cache make_cache(const CacheSpec& spec);
 
   void tick(Cycles now);
@@ -69,7 +73,7 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void check_progress(Cycles now);
   [[nodiscard]] std::string describe_stuck(Cycles now) const;
   std::vector<clocked::Unit*> units_;  ///< in the order in which they tick
-  Channels<LineRequest> requests_;     ///< of each private cache
+  Channels<LineRequest> requests_;     ///< of each requester
   Cycles still_since_ = kNever;
 };
 

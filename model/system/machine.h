@@ -38,6 +38,7 @@ struct TimedKind {
   using PacketArbiter = sheaf::PacketArbiter;
   using RayCache = RayCacheUnit;
   using SpawnRouter = sheaf::SpawnRouter;
+  using Spill = SpillUnit;
   using ShaderCache = ShaderCacheUnit;
   using Film = FilmUnit;
   using L2 = L2Cache;

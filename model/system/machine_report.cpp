@@ -133,13 +133,11 @@ void MachineParts<Kind>::report_memory(StatsTree& stats) const {
   stats.add_counters("system.l2", l2_->stats());
   stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
                   l2_->stats().num_accesses);
-  if constexpr (requires { l2_->request_crossbar(); }) {  // clocked has none
-    if (l2_->request_crossbar()) {
-      stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
-    }
-    if (l2_->response_crossbar()) {
-      stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
-    }
+  if (l2_->request_crossbar()) {
+    stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
+  }
+  if (l2_->response_crossbar()) {
+    stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
   }
   for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
     if (static_cast<DataKind>(kind) == DataKind::kSpilledRay && !spill_) continue;
