@@ -9,7 +9,6 @@
 #include <array>
 #include <bit>
 #include <string_view>
-#include <utility>
 
 #include "base/errors.h"
 #include "config/config_text.h"
@@ -134,16 +133,6 @@ void check_view(const Config& c) {
   }
 }
 
-// What the reference that ticks every cycle does not have.
-void check_clocked(const Config& c) {
-  const auto needs = [](bool holds, const std::string& setting) {
-    if (!holds) refuse(fmt::format("run.fidelity = clocked models only {}", setting));
-  };
-  needs(c.flow.control != FlowPolicy::kSpill, "flow.control = tile and credits");
-  needs(c.crossbar.request_width == 0, "crossbar.request_width = 0");
-  needs(c.crossbar.response_width == 0, "crossbar.response_width = 0");
-}
-
 }  // namespace
 
 std::vector<std::string> heat_map_names(const ImageSpec& image) {
@@ -179,7 +168,6 @@ void check_config(const Config& config) {
   check_memory(config);
   check_flow(config);
   check_view(config);
-  if (config.run.fidelity == Fidelity::kClocked) check_clocked(config);
   static_cast<void>(heat_map_names(config.image));
 }
 

@@ -38,6 +38,7 @@ LineRequest RequestCrossbar::take(Cache& cache, Cycles now) {
 }
 
 Cycles ResponseCrossbar::leave(const Entry& entry) {
+  if (entry.request.write) return entry.ready;
   Cycles& free = banks_[entry.bank];
   const Cycles start = std::max(entry.ready, free);
   const Cycles taken = cycles_of(entry.request.bytes, spec_.response_width);

@@ -100,7 +100,7 @@ class RequestCrossbar {
 };
 
 /// Way of lines from banks to private caches: a bank's lines leave one after the other, in the
-/// order in which they are ready.
+/// order in which they are ready. That a write was taken holds nothing up and waits for nothing.
 class ResponseCrossbar {
  public:
   ResponseCrossbar(const CrossbarSpec& spec, std::size_t banks) : spec_(spec), banks_(banks) {}
@@ -120,7 +120,7 @@ class ResponseCrossbar {
   [[nodiscard]] Cycles next_event() const {
     return waiting_.empty() ? kNever : waiting_.top().ready;
   }
-  /// Calls deliver(request, start) for all lines that are ready by `now`; they leave at `start`.
+  /// Calls deliver(request, start) for all answers that are ready by `now`; they leave at `start`.
   template <typename Deliver>
   void cross(Cycles now, const Deliver& deliver) {
     while (!waiting_.empty() && waiting_.top().ready <= now) {

@@ -83,9 +83,8 @@ void L2Cache::act(Cycles event) {
   domain_.happened(now);
   if (!answers_.empty() && answers_.top().at <= now) take_answers(now);
   if (response_crossbar_) {
-    response_crossbar_->cross(now, [this](const LineRequest& request, Cycles start) {
-      responses_[request.requester]->write_ahead({request.address}, start);
-    });
+    response_crossbar_->cross(
+        now, [this](const LineRequest& request, Cycles start) { send(request, start); });
   }
   // Requests that have waited come before those that arrive now.
   if (num_queued_ != 0) serve_queues(now);
@@ -243,10 +242,7 @@ bool L2Cache::serve_write(Bank& bank, const LineRequest& request, Cycles now) {
     ++stats_.num_misses;
     pass_on(request, now);
   }
-  if (request.acknowledged) {
-    responses_[request.requester]->write_ahead({LineResponse::kWriteTaken},
-                                               now + spec_.hit_latency);
-  }
+  if (request.acknowledged) respond(request, now + spec_.hit_latency);
   return true;
 }
 
@@ -277,8 +273,14 @@ void L2Cache::respond(const LineRequest& request, Cycles ready) {
   if (response_crossbar_) {
     response_crossbar_->push(place_of(line_of(request.address)).bank, request, ready);
   } else {
-    responses_[request.requester]->write_ahead({request.address}, ready);
+    send(request, ready);
   }
+}
+
+// The line that was asked for, or that a write was taken.
+void L2Cache::send(const LineRequest& request, Cycles at) {
+  const Address address = request.write ? LineResponse::kWriteTaken : request.address;
+  responses_[request.requester]->write_ahead({address}, at);
 }
 
 void L2Cache::fill(Address address, Cycles now) {

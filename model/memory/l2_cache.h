@@ -156,6 +156,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   [[nodiscard]] Mshr* find_mshr(Bank& bank, std::uint64_t line);
   Mshr& take_mshr(Bank& bank, const LineRequest& request, Cycles now);
   void respond(const LineRequest& request, Cycles ready);
+  void send(const LineRequest& request, Cycles at);
   void put(const Place& where, bool dirty, Cycles now);
   void send_to_dram(Address address, Bytes bytes, bool write, Cycles at);
   void pass_on(const LineRequest& request, Cycles now);

@@ -75,6 +75,15 @@ std::vector<Factor> factors(const Extremes& extremes) {
   return all;
 }
 
+std::vector<Factor> with_spilling_and_crossbars(std::vector<Factor> all) {
+  for (Factor& factor : all) {
+    if (factor.key == "flow.control") factor.levels.emplace_back("spill");
+  }
+  all.push_back({"crossbar.request_width", {"0", "1"}});
+  all.push_back({"crossbar.response_width", {"0", "1"}});
+  return all;
+}
+
 /// Machines as settings: every combination of the levels of any `strength` factors.
 std::vector<std::vector<std::string>> machines(const std::vector<Factor>& all,
                                                std::size_t strength) {
@@ -94,12 +103,8 @@ std::vector<std::vector<std::string>> machines(const std::vector<Factor>& all,
 std::vector<Finding> stiff_machines(const Effort& effort) {
   const MachineScene scene(2);
   const MachineRun untimed = scene.run({"run.fidelity=functional"});
-  std::vector<Factor> all = factors({"1000000", "64", {"1MHz", "1GHz", "1THz"}});
-  for (Factor& factor : all) {
-    if (factor.key == "flow.control") factor.levels.emplace_back("spill");
-  }
-  all.push_back({"crossbar.request_width", {"0", "1"}});
-  all.push_back({"crossbar.response_width", {"0", "1"}});
+  const std::vector<Factor> all =
+      with_spilling_and_crossbars(factors({"1000000", "64", {"1MHz", "1GHz", "1THz"}}));
   const std::size_t strength = effort.quick ? 2 : 3;
   Failures broken;
   Failures pictures;
@@ -130,7 +135,9 @@ std::vector<Finding> stiff_machines(const Effort& effort) {
 std::vector<Finding> against_clocked() {
   const MachineScene scene(1);
   Failures unlike;
-  for (std::vector<std::string> settings : machines(factors({"10", "4", {"500MHz", "2GHz"}}), 2)) {
+  const std::vector<Factor> all =
+      with_spilling_and_crossbars(factors({"10", "4", {"500MHz", "2GHz"}}));
+  for (std::vector<std::string> settings : machines(all, 2)) {
     const MachineRun timed = scene.run(settings);
     settings.emplace_back("run.fidelity=clocked");
     const MachineRun clocked = scene.run(settings);

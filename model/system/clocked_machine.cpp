@@ -78,10 +78,13 @@ void ClockedMachine::build_regrouper() {
       Link<RayPacket*>::Spec{.capacity = config_.packet_fifo.depth,
                              .latency = config_.packet_fifo.latency +
                                         (plan_.ray_cache ? config_.ray_cache.latency : 0)});
+  const bool spills = config_.flow.control == FlowPolicy::kSpill;
   links_.spawned_rays = std::make_unique<Link<SpawnBundle*>>(
-      "spawned_rays", Link<SpawnBundle*>::Spec{.latency = config_.link.latency});
+      "spawned_rays", Link<SpawnBundle*>::Spec{.capacity = spills ? config_.link.depth : kNeverFull,
+                                               .latency = config_.link.latency});
+  if (spills) build_spill();
   const auto attach = [&](auto& unit) {
-    unit.in_bundles = links_.spawned_rays.get();
+    unit.in_bundles = spills ? links_.spill_to_regrouper.get() : links_.spawned_rays.get();
     unit.out_packets = links_.packet_fifo.get();
   };
   if (plan_.ray_cache) {
@@ -94,6 +97,23 @@ void ClockedMachine::build_regrouper() {
     spawn_router_ = std::make_unique<clocked::SpawnRouter>("spawn_router", packets_, bundles_);
     attach(*spawn_router_);
   }
+}
+
+// The queue that spills stands right before whoever takes the rays in.
+void ClockedMachine::build_spill() {
+  links_.spill_to_regrouper = std::make_unique<Link<SpawnBundle*>>(
+      "spill_to_regrouper", Link<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
+  const Bytes line = config_.l2.line / config_.l2.sectors;
+  const ClockedMemory::Requester requester = memory_->add_requester(line);
+  spill_ = std::make_unique<clocked::SpillUnit>(
+      "spill",
+      SpillUnit::Spec{.queue = config_.flow.spill_queue,
+                      .line = line,
+                      .base = scene_.memory.region(DataKind::kSpilledRay).base,
+                      .requester = requester.number},
+      requester.requests, requester.lines);
+  spill_->in_bundles = links_.spawned_rays.get();
+  spill_->out_bundles = links_.spill_to_regrouper.get();
 }
 
 // One more link with `link.depth` credits.
@@ -177,6 +197,7 @@ void ClockedMachine::list_units() {
   for (const auto& unit : shader_units_) units_.push_back(unit.get());
   if (shader_cache_) units_.push_back(shader_cache_.get());
   units_.push_back(film_.get());
+  if (spill_) units_.push_back(spill_.get());
   if (ray_cache_) units_.push_back(ray_cache_.get());
   if (spawn_router_) units_.push_back(spawn_router_.get());
 }

@@ -15,6 +15,7 @@
 #include "units/clocked/shader_cache.h"
 #include "units/clocked/shader_unit.h"
 #include "units/clocked/spawn_router.h"
+#include "units/clocked/spill_unit.h"
 #include "units/clocked/traversal_unit.h"
 
 namespace sheaf {
@@ -30,6 +31,7 @@ struct ClockedKind {
   using PacketArbiter = clocked::PacketArbiter;
   using RayCache = clocked::RayCache;
   using SpawnRouter = clocked::SpawnRouter;
+  using Spill = clocked::SpillUnit;
   using ShaderCache = clocked::ShaderCache;
   using Film = clocked::FilmUnit;
   using Memory = ClockedMemory;
@@ -53,6 +55,7 @@ class ClockedMachine : public MachineParts<ClockedKind> {
 
   void build_units();
   void build_regrouper();
+  void build_spill();
   void connect();
   void connect_shaders();
   void list_units();

@@ -17,13 +17,12 @@ ClockedMemory::ClockedMemory(const Config& config) : link_(config.link) {
     dram_ = std::make_unique<clocked::BankedDram>(config.l2.hit_latency, resolve_dram(config.dram),
                                                   config.clock.frequency);
   }
-  l2_ = std::make_unique<clocked::L2Cache>(config.l2, *dram_);
+  l2_ = std::make_unique<clocked::L2Cache>(config.l2, config.crossbar, *dram_);
 }
 
-clocked::Cache ClockedMemory::make_cache(const CacheSpec& spec) {
+ClockedMemory::Requester ClockedMemory::add_requester(Bytes bytes) {
   const auto number = static_cast<std::uint16_t>(requests_.size());
   const Cycles latency = link_.memory_latency;
-  const Bytes bytes = spec.line / spec.sectors;
   const Cycles transfer = (bytes + link_.memory_width - 1) / link_.memory_width;
   requests_.push_back(std::make_unique<Link<LineRequest>>(
       fmt::format("cache_{}_to_l2", number),
@@ -33,7 +32,12 @@ clocked::Cache ClockedMemory::make_cache(const CacheSpec& spec) {
       Link<LineResponse>::Spec{.latency = latency, .interval = transfer}));
   l2_->in_requests.push_back(requests_.back().get());
   l2_->out_responses.push_back(lines_.back().get());
-  return {spec, number, *requests_.back(), *lines_.back()};
+  return {number, *requests_.back(), *lines_.back()};
+}
+
+clocked::Cache ClockedMemory::make_cache(const CacheSpec& spec) {
+  const Requester requester = add_requester(spec.line / spec.sectors);
+  return {spec, requester.number, requester.requests, requester.lines};
 }
 
 void ClockedMemory::tick(Cycles now) {

@@ -17,7 +17,15 @@ class ClockedMemory : public MemoryParts<clocked::Link, clocked::L2Cache, clocke
  public:
   explicit ClockedMemory(const Config& config);
 
-  /// One more private cache, with its links to the L2 and back.
+  /// Who asks the L2 for lines, with its links there and back.
+  struct Requester {
+    std::uint16_t number;
+    clocked::Link<LineRequest>& requests;
+    clocked::Link<LineResponse>& lines;
+  };
+  /// One more, for pieces of `bytes`.
+  Requester add_requester(Bytes bytes);
+  /// One more private cache.
   [[nodiscard]] clocked::Cache make_cache(const CacheSpec& spec);
 
   void tick(Cycles now);

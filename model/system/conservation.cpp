@@ -46,7 +46,8 @@ void check_shading_sorter(const ShaderCacheStats& stats) {
                 "shader cache: rays in = rays out");
 }
 
-void check_spill(const SpillUnit& spill) {
+template <typename Spill>
+void check_spill(const Spill& spill) {
   const SpillStats& stats = spill.stats();
   require(spill.is_idle(), "no ray in the spill unit or its memory at the end");
   require_equal(stats.num_rays, stats.num_rays_kept + stats.num_rays_spilled,

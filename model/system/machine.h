@@ -37,6 +37,7 @@ struct TimedKind {
   using PacketArbiter = sheaf::PacketArbiter;
   using RayCache = RayCacheUnit;
   using SpawnRouter = sheaf::SpawnRouter;
+  using Spill = SpillUnit;
   using ShaderCache = ShaderCacheUnit;
   using Film = FilmUnit;
   using Memory = MemorySystem;

@@ -12,7 +12,6 @@
 #include "system/prepared_scene.h"
 #include "system/run_hooks.h"
 #include "units/flow_control.h"
-#include "units/spill_unit.h"
 
 namespace sheaf {
 
@@ -53,7 +52,7 @@ class MachineParts {
   std::unique_ptr<typename Kind::PacketArbiter> packet_arbiter_;
   std::unique_ptr<typename Kind::RayCache> ray_cache_;
   std::unique_ptr<typename Kind::SpawnRouter> spawn_router_;
-  std::unique_ptr<SpillUnit> spill_;  ///< only in time, event by event
+  std::unique_ptr<typename Kind::Spill> spill_;
   std::unique_ptr<typename Kind::ShaderCache> shader_cache_;
   std::unique_ptr<typename Kind::Film> film_;
   std::unique_ptr<typename Kind::Memory> memory_;

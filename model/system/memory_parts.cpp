@@ -35,13 +35,11 @@ void MemoryParts<Link, L2, Dram>::report(Cycles end, std::uint64_t rays, bool sp
   stats.add_counters("system.l2", l2_->stats());
   stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
                   l2_->stats().num_accesses);
-  if constexpr (requires { l2_->request_crossbar(); }) {  // clocked has none
-    if (l2_->request_crossbar()) {
-      stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
-    }
-    if (l2_->response_crossbar()) {
-      stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
-    }
+  if (l2_->request_crossbar()) {
+    stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
+  }
+  if (l2_->response_crossbar()) {
+    stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
   }
   for (std::size_t i = 0; i < kNumDataKinds; ++i) {
     const auto kind = static_cast<DataKind>(i);

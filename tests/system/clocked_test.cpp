@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "support/scenes.h"
 #include "support/simulate.h"
 
@@ -134,6 +135,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"l2.write_buffer=1", "l2.mode=absent", "dram.model=DDR4-2400",
                              "film_cache.write_policy=through"}));
 
+INSTANTIATE_TEST_SUITE_P(Crossbars, ClockedMachines,
+                         testing::Values(Settings{"crossbar.request_width=4"},
+                                         Settings{"crossbar.request_width=16", "crossbar.depth=1"},
+                                         Settings{"crossbar.response_width=1"},
+                                         Settings{"crossbar.response_width=1",
+                                                  "film_cache.write_buffer=4", "l2.banks=1",
+                                                  "l2.capacity=16KiB"}));
+
+INSTANTIATE_TEST_SUITE_P(Spilling, ClockedMachines,
+                         testing::Values(Settings{"flow.control=spill", "flow.spill_queue=64"},
+                                         Settings{"flow.control=spill", "flow.spill_queue=16",
+                                                  "link.depth=1", "ray_cache.heuristic=none"},
+                                         Settings{"flow.control=spill", "flow.spill_queue=32",
+                                                  "l2.line=128", "l2.sectors=2",
+                                                  "film_cache.line=16", "shader_unit.count=3",
+                                                  "l2.capacity=16KiB"}));
+
 INSTANTIATE_TEST_SUITE_P(
     Dram, ClockedMachines,
     testing::Values(Settings{"dram.model=DDR4-2400"},
@@ -142,6 +160,66 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"dram.model=GDDR6-14000", "l2.mode=absent", "clock.frequency=1.7GHz"},
                     Settings{"dram.model=LPDDR5-6400", "l2.capacity=16KiB",
                              "flow.control=credits"}));
+
+/// A machine with about half of these options, each with one of its values.
+Settings random_machine(std::uint64_t seed) {
+  struct Option {
+    const char* key;
+    std::vector<const char*> values;
+  };
+  const std::vector<Option> options{{"flow.control", {"credits", "spill"}},
+                                    {"ray_cache.heuristic", {"none", "mdir(24)"}},
+                                    {"dram.model", {"DDR4-2400", "GDDR6-14000"}},
+                                    {"l2.capacity", {"16KiB", "64KiB"}},
+                                    {"l2.mode", {"absent", "perfect"}},
+                                    {"l2.banks", {"1", "8"}},
+                                    {"l2.sectors", {"2", "4"}},
+                                    {"l2.ports", {"2", "3"}},
+                                    {"l2.mshrs", {"1", "2"}},
+                                    {"l2.mshr_targets", {"1", "2"}},
+                                    {"l2.replacement", {"plru", "fifo", "random"}},
+                                    {"l2.write_policy", {"through"}},
+                                    {"l2.write_allocate", {"true"}},
+                                    {"l2.write_buffer", {"1", "3"}},
+                                    {"crossbar.request_width", {"4", "16"}},
+                                    {"crossbar.response_width", {"2", "16"}},
+                                    {"node_cache.sectors", {"4"}},
+                                    {"node_cache.mshr_targets", {"1"}},
+                                    {"triangle_cache.sectors", {"4"}},
+                                    {"triangle_cache.banks", {"2"}},
+                                    {"triangle_cache.ports", {"2"}},
+                                    {"triangle_cache.mshrs", {"1", "3"}},
+                                    {"attribute_cache.sectors", {"4"}},
+                                    {"attribute_cache.banks", {"4"}},
+                                    {"attribute_cache.mshr_targets", {"1", "2"}},
+                                    {"film_cache.sectors", {"4"}},
+                                    {"film_cache.line", {"64"}},
+                                    {"film_cache.capacity", {"1KiB"}},
+                                    {"film_cache.mode", {"absent"}},
+                                    {"film_cache.write_policy", {"through"}},
+                                    {"film_cache.write_allocate", {"false"}},
+                                    {"film_cache.write_buffer", {"1", "4"}}};
+  Random random(seed);
+  // Sectors of the L2 are never smaller than those of the private caches.
+  Settings settings{"flow.spill_queue=48", "l2.line=256"};
+  for (const Option& option : options) {
+    const std::uint64_t choice = random.below(2 * option.values.size());
+    if (choice >= option.values.size()) continue;
+    settings.push_back(std::string(option.key) + '=' + option.values[choice]);
+  }
+  return settings;
+}
+
+class ClockedCombinations : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(ClockedCombinations, TimedEqualsClockedInEveryCounter) {
+  const Settings machine = random_machine(GetParam());
+  SCOPED_TRACE(testing::PrintToString(machine));
+  const TestScene scene(committed_scene("dragon"), kSmall);
+  expect_equal(scene, machine);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, ClockedCombinations, testing::Range<std::uint64_t>(0, 24));
 
 TEST(Clocked, CutRunsAreAsLongAsTheirLimit) {
   const TestScene scene(committed_scene("sponza"), kSmall);

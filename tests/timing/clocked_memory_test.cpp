@@ -54,6 +54,11 @@ struct L2Bench {
     choose_writes(bench.random, spec.write);
     spec.capacity = spec.line * spec.ways * spec.banks * 4;
     spec.hit_latency = 1 + bench.random.below(12);
+    if (bench.random.below(2) == 0) {
+      crossbar.request_width = 16U << bench.random.below(3);
+      crossbar.depth = static_cast<std::uint32_t>(bench.random.below(3));
+    }
+    if (bench.random.below(2) == 0) crossbar.response_width = 8U << bench.random.below(4);
     build();
     bench.act = [this](Cycles now) { act(now); };
   }
@@ -79,7 +84,7 @@ struct L2Bench {
           {.capacity = kUnbounded, .latency = kMemoryLatency, .interval = i}));
     }
     if constexpr (M::kTimed) {
-      l2 = std::make_unique<L2>("l2", spec, *bench.domain);
+      l2 = std::make_unique<L2>("l2", spec, crossbar, *bench.domain);
       l2->in_requests(*requests[0]);
       for (auto* link : responses) l2->out_responses(*link);
       if constexpr (kModel == DramModel::kFixed) {
@@ -98,7 +103,7 @@ struct L2Bench {
         dram = std::make_unique<clocked::BankedDram>(spec.hit_latency, resolve_dram(dram_spec),
                                                      kCoreHz);
       }
-      l2 = std::make_unique<L2>(spec, *dram);
+      l2 = std::make_unique<L2>(spec, crossbar, *dram);
       l2->in_requests = requests;
       l2->out_responses = responses;
     }
@@ -107,7 +112,7 @@ struct L2Bench {
   void act(Cycles now) {
     for (std::uint16_t requester = 0; requester < kNumRequesters; ++requester) {
       while (responses[requester]->has_arrived(now)) {
-        bench.note("line", now, requester, responses[requester]->read(now).address);
+        bench.note("answer", now, requester, responses[requester]->read(now).address);
       }
       if (num_sent < kMostRequests && bench.random.below(3) == 0) {
         ++num_sent;
@@ -141,6 +146,8 @@ struct L2Bench {
     EXPECT_TRUE(l2->is_idle());
     bench.note_counters(l2->stats());
     bench.note_counters(l2->kind_stats(DataKind::kNode));
+    if (l2->request_crossbar()) bench.note_counters(l2->request_crossbar()->stats());
+    if (l2->response_crossbar()) bench.note_counters(l2->response_crossbar()->stats());
     if constexpr (M::kTimed) dram->finish(kLastAction);
     StatsTree details;
     bench.note_counters(dram->stats(kLastAction));
@@ -155,6 +162,7 @@ struct L2Bench {
   using Memory = std::conditional_t<M::kTimed, MainMemory, clocked::Dram>;
   UnitBench<M> bench;
   L2Spec spec;
+  CrossbarSpec crossbar;
   DramSpec dram_spec;
   int num_sent = 0;
   std::vector<typename M::template Link<LineRequest>*> requests;

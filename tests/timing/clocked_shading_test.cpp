@@ -99,8 +99,9 @@ struct ShaderBench {
       in.push_back(&bench.template to_unit<RayPacket*>(name, {.capacity = 2, .latency = kLatency}));
     }
     film = &bench.template from_unit<FilmBatch*>("film", {.capacity = 2, .latency = kLatency});
-    spawned = &bench.template from_unit<SpawnBundle*>(
-        "bundles", {.capacity = clocked::Link<int>::kUnbounded, .latency = kLatency});
+    const std::size_t capacity = seed % 2 == 0 ? clocked::Link<int>::kUnbounded : 2;
+    spawned = &bench.template from_unit<SpawnBundle*>("bundles",
+                                                      {.capacity = capacity, .latency = kLatency});
     if constexpr (M::kTimed) {
       unit = std::make_unique<Unit>("unit", spec, kPacketSize, attributes, &textures, shaded,
                                     *bench.domain, attribute_lines.requests, 0, 1);

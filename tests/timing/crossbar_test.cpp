@@ -126,6 +126,18 @@ TEST_F(CrossbarTest, LineThatIsReadyEarlierLeavesFirstThoughAskedForLater) {
   EXPECT_EQ(arrival(2), filled + 6 + 8);
 }
 
+TEST_F(CrossbarTest, WordThatAWriteWasTakenDoesNotOvertakeALineReadyBeforeIt) {
+  build(wide(), {.response_width = 16});
+  for (const std::uint64_t line : {0, 2}) read_at(0, line);
+  for (const std::uint64_t line : {0, 2}) read_at(1000, line);  // the second leaves in 1024
+  send_at(1004, {64, 64, 0, DataKind::kPixel, true, true});     // taken in 1012, ready in 1024
+  sc_core::sc_start();
+  ASSERT_EQ(arrived.size(), 5U);
+  EXPECT_EQ(arrival(3), 1024U + 8U);
+  EXPECT_EQ(arrived[3].second, 2U * 64U);
+  EXPECT_EQ(arrival(4), 1024U + 9U);
+  EXPECT_TRUE(arrived[4].of_write);
+}
 TEST_F(CrossbarTest, LittlesLawHoldsBeforeTheCrossbar) {
   build(spec(), {.request_width = 16, .response_width = 16, .depth = 2});
   for (Cycles t = 0; t < 200; ++t) {

@@ -6,8 +6,9 @@
 
 namespace sheaf::clocked {
 
-L2Cache::L2Cache(const L2Spec& spec, Dram& dram)
+L2Cache::L2Cache(const L2Spec& spec, const CrossbarSpec& crossbar, Dram& dram)
     : spec_(spec),
+      crossbar_(crossbar),
       dram_(dram),
       answered_("answered", {.latency = spec.hit_latency, .interval = 0}) {
   for (std::uint32_t bank = 0; bank < spec.banks; ++bank) {
@@ -15,28 +16,60 @@ L2Cache::L2Cache(const L2Spec& spec, Dram& dram)
     shape.seed += bank;
     banks_.push_back({CacheArray(shape), {}, {}});
   }
+  if (crossbar.request_width != 0) request_crossbar_.emplace(crossbar, banks_.size());
+  if (crossbar.response_width != 0) response_crossbar_.emplace(crossbar, banks_.size());
 }
 
 void L2Cache::tick(Cycles now) {
-  while (answered_.has_arrived(now)) {
-    const LineRequest request = answered_.read(now);
-    const Address address = request.write ? LineResponse::kWriteTaken : request.address;
-    out_responses[request.requester]->write({address}, now);
-  }
+  while (answered_.has_arrived(now)) respond(answered_.read(now), now);
   take_answers(now);
+  if (response_crossbar_) {
+    for (const LineRequest& request : response_crossbar_->cross(now)) send(request, now);
+  }
   for (Bank& bank : banks_) {
     bank.ports_taken = 0;
     while (!bank.queue.empty() && can_take(bank) && serve(bank, bank.queue.front(), now)) {
       bank.queue.pop_front();
     }
   }
-  for (Link<LineRequest>* requests : in_requests) {
-    while (requests->has_arrived(now)) arrive(requests->read(now), now);
-  }
+  take_requests(now);
   for (const Bank& bank : banks_) {
     stats_.queue_occupancy_cycles += bank.queue.size();
     stats_.mshr_occupancy_cycles += bank.mshrs.size();
   }
+}
+
+void L2Cache::take_requests(Cycles now) {
+  for (Link<LineRequest>* requests : in_requests) {
+    while (requests->has_arrived(now)) {
+      const LineRequest request = requests->read(now);
+      (request.write ? stats_.bytes_received : stats_.bytes_requested) += request.bytes;
+      if (request_crossbar_) {
+        request_crossbar_->push(request, bank_number(line_of(request.address)), now);
+      } else {
+        accept(request, now);
+      }
+    }
+  }
+  if (!request_crossbar_) return;
+  const auto has_room = [this](std::size_t bank) {
+    return crossbar_.depth == 0 || banks_[bank].queue.size() < crossbar_.depth;
+  };
+  for (const LineRequest& request : request_crossbar_->cross(has_room, now)) accept(request, now);
+}
+
+void L2Cache::respond(const LineRequest& request, Cycles now) {
+  if (response_crossbar_) {
+    response_crossbar_->push(request, bank_number(line_of(request.address)), now);
+  } else {
+    send(request, now);
+  }
+}
+
+// The line that was asked for, or that a write was taken.
+void L2Cache::send(const LineRequest& request, Cycles now) {
+  const Address address = request.write ? LineResponse::kWriteTaken : request.address;
+  out_responses[request.requester]->write({address}, now);
 }
 
 void L2Cache::take_answers(Cycles now) {
@@ -50,8 +83,7 @@ void L2Cache::take_answers(Cycles now) {
   }
 }
 
-void L2Cache::arrive(const LineRequest& what, Cycles now) {
-  (what.write ? stats_.bytes_received : stats_.bytes_requested) += what.bytes;
+void L2Cache::accept(const LineRequest& what, Cycles now) {
   Bank& bank = place_of(line_of(what.address)).bank;
   const Request request{what, now};
   if (bank.queue.empty() && can_take(bank) && serve(bank, request, now)) return;
@@ -163,9 +195,7 @@ void L2Cache::fill(Address address, Cycles now) {
   const Mshr mshr = *find_mshr(bank, line);
   std::erase_if(bank.mshrs, [&](const Mshr& m) { return m.line == line; });
   stats_.sum_miss_latency += now - mshr.since;
-  for (const LineRequest& waiter : mshr.waiters) {
-    out_responses[waiter.requester]->write({waiter.address}, now);
-  }
+  for (const LineRequest& waiter : mshr.waiters) respond(waiter, now);
   bank.blocked = false;
   put(line, mshr.dirty, now);
 }
@@ -174,12 +204,11 @@ void L2Cache::fill(Address address, Cycles now) {
 void L2Cache::put(std::uint64_t line, bool dirty, Cycles now) {
   const Place place = place_of(line);
   const CacheArray::Victim victim = place.bank.array.fill(place.index, dirty);
-  const std::uint64_t bank = line / spec_.sectors % spec_.banks;
-  const std::uint64_t first = (victim.line / spec_.sectors * spec_.banks + bank) * spec_.sectors;
+  const std::uint64_t tag = victim.line / spec_.sectors * spec_.banks + bank_number(line);
   for (std::uint32_t sector = 0; sector < spec_.sectors; ++sector) {
     if ((victim.dirty >> sector & 1U) == 0) continue;
     ++stats_.num_writebacks;
-    send_to_dram((first + sector) * line_size(), line_size(), true, now);
+    send_to_dram((tag * spec_.sectors + sector) * line_size(), line_size(), true, now);
   }
 }
 
@@ -197,14 +226,16 @@ void L2Cache::send_to_dram(Address address, Bytes bytes, bool write, Cycles now)
 
 L2Cache::Place L2Cache::place_of(std::uint64_t line) {
   const std::uint64_t tag = line / spec_.sectors;
-  return {banks_[tag % spec_.banks], tag / spec_.banks * spec_.sectors + line % spec_.sectors};
+  return {banks_[bank_number(line)], tag / spec_.banks * spec_.sectors + line % spec_.sectors};
 }
 
 bool L2Cache::is_idle() const {
   const bool idle = std::all_of(banks_.begin(), banks_.end(), [](const Bank& bank) {
     return bank.queue.empty() && bank.mshrs.empty() && bank.writes_out == 0;
   });
-  return idle && answered_.size() == 0 &&
+  const bool nothing_crosses = (!request_crossbar_ || request_crossbar_->is_empty()) &&
+                               (!response_crossbar_ || response_crossbar_->is_empty());
+  return idle && nothing_crosses && answered_.size() == 0 &&
          std::all_of(in_requests.begin(), in_requests.end(),
                      [](const Link<LineRequest>* requests) { return requests->size() == 0; });
 }

@@ -4,13 +4,14 @@
 
 #include <array>
 #include <deque>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "config/config.h"
 #include "memory/cache_array.h"
 #include "memory/l2_cache.h"
 #include "memory/memory_messages.h"
+#include "units/clocked/crossbar.h"
 #include "units/clocked/dram.h"
 #include "units/clocked/link.h"
 
@@ -25,12 +26,14 @@ namespace sheaf::clocked {
 ///  4. requests that arrive now, of the lowest requester first, are taken by their bank if a port
 ///     is left and nothing waits before them, or queue.
 ///
+/// With a crossbar they arrive when they have crossed it; so do answers, before 3.
+///
 /// A bank takes nothing while its first request waits for room in the MSHRs, or its write buffer is
 /// full. A request to DRAM leaves hit_latency after the look-up that caused it, or the fill that
 /// pushed a modified line out.
 class L2Cache {
  public:
-  L2Cache(const L2Spec& spec, Dram& dram);
+  L2Cache(const L2Spec& spec, const CrossbarSpec& crossbar, Dram& dram);
 
   std::vector<Link<LineRequest>*> in_requests;     ///< by requester
   std::vector<Link<LineResponse>*> out_responses;  ///< by requester
@@ -40,6 +43,13 @@ class L2Cache {
   [[nodiscard]] const L2Stats& stats() const { return stats_; }
   [[nodiscard]] const L2KindStats& kind_stats(DataKind kind) const {
     return kind_stats_[static_cast<std::size_t>(kind)];
+  }
+  /// If there is one to be modelled.
+  [[nodiscard]] const std::optional<RequestCrossbar>& request_crossbar() const {
+    return request_crossbar_;
+  }
+  [[nodiscard]] const std::optional<ResponseCrossbar>& response_crossbar() const {
+    return response_crossbar_;
   }
   /// Nothing queued, nothing outstanding; else it will go on by itself.
   [[nodiscard]] bool is_idle() const;
@@ -72,7 +82,10 @@ class L2Cache {
   void take_answers(Cycles now);
   void fill(Address address, Cycles now);
   void put(std::uint64_t line, bool dirty, Cycles now);
-  void arrive(const LineRequest& request, Cycles now);
+  void take_requests(Cycles now);
+  void accept(const LineRequest& request, Cycles now);
+  void respond(const LineRequest& request, Cycles now);
+  void send(const LineRequest& request, Cycles now);
   [[nodiscard]] bool can_take(const Bank& bank) const;
   bool serve(Bank& bank, const Request& request, Cycles now);
   bool serve_read(Bank& bank, const LineRequest& request, Cycles now);
@@ -92,10 +105,17 @@ class L2Cache {
     return kind_stats_[static_cast<std::size_t>(request.kind)];
   }
 
+  [[nodiscard]] std::size_t bank_number(std::uint64_t line) const {
+    return line / spec_.sectors % spec_.banks;
+  }
+
   const L2Spec spec_;
+  const CrossbarSpec crossbar_;
   Dram& dram_;
   std::vector<Bank> banks_;
   Link<LineRequest> answered_;  ///< hits and taken writes, on their way through the arrays
+  std::optional<RequestCrossbar> request_crossbar_;
+  std::optional<ResponseCrossbar> response_crossbar_;
   L2Stats stats_;
   std::array<L2KindStats, kNumDataKinds> kind_stats_;
 };

@@ -101,6 +101,8 @@ void ShaderUnit::send_output(int context, Cycles now) {
     out_film->write(batch, now);
     w.has_batch = false;
   }
+  const bool spawns = !w.shading.spawned.rays.empty();
+  if (spawns && !out_bundles->has_room(now)) return block(context);
   retire(w, now);
   free(context);
 }

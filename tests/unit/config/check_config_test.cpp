@@ -126,21 +126,6 @@ TEST(CheckConfig, OnlyACrossbarWithAWidthHasADepth) {
             "crossbar.depth = 4 needs a crossbar.request_width; without one nothing waits");
 }
 
-TEST(CheckConfig, TheReferenceRefusesWhatItDoesNotModel) {
-  const auto clocked = [](const std::function<void(Config&)>& change) {
-    return verdict([&](Config& c) {
-      c.run.fidelity = Fidelity::kClocked;
-      change(c);
-    });
-  };
-  EXPECT_EQ(clocked([](Config&) {}), "");
-  EXPECT_EQ(clocked([](Config& c) { c.flow.control = FlowPolicy::kSpill; }),
-            "run.fidelity = clocked models only flow.control = tile and credits");
-  EXPECT_EQ(clocked([](Config& c) { c.film_cache.write.buffer = 2; }),
-            "run.fidelity = clocked models only film_cache.write_buffer = 0");
-  EXPECT_EQ(clocked([](Config& c) { c.l2.replacement = Replacement::kRandom; }), "");
-}
-
 TEST(CheckConfig, APacketFitsIntoATile) {
   EXPECT_EQ(verdict([](Config& c) { c.flow.tile_size = 3; }),
             "flow.tile_size = 3 makes tiles of 9 pixels, fewer than packet.size = 16");
