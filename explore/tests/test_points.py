@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable
 from dataclasses import replace
@@ -101,3 +102,31 @@ def test_a_points_name_depends_on_what_is_simulated_alone(write_spec: Write) -> 
         name(replace(point, source=replace(point.source, kind="trace"))),
     }
     assert len(others | {name(point)}) == 5
+
+
+def test_outputs_are_part_of_the_name_only_where_a_spec_asks_for_them(write_spec: Write) -> None:
+    l2 = {"ways": {"type": "integer", "minimum": 1, "maximum": 16, "default": 8}}
+    parameters = Parameters({"properties": {"l2": {"type": "object", "properties": l2}}})
+
+    def name(outputs: str) -> str:
+        [point] = expand(read_spec(write_spec(HEAD + outputs), parameters), parameters)
+        return point_id(point, parameters, "s", "b")
+
+    plain = name("")
+    identity = '{"binary":"b","configuration":{"l2.ways":8},"mode":"live","source":"s"}'
+    assert plain == hashlib.sha256(identity.encode()).hexdigest()[:20]
+    assert name("[outputs]\nimages = true\ntimeline = false\n") == plain
+    timeline = "[outputs]\ntimeline = true\n"
+    others = {name("[outputs]\nimages = false\n"), name(timeline)}
+    others.add(name(timeline + "timeline_window = '0..9'\n"))
+    assert len(others | {plain}) == 4
+
+
+def test_a_timeline_is_asked_for_only_where_time_is_simulated(write_spec: Write) -> None:
+    text = HEAD + "[outputs]\ntimeline = true\nimages = false\ntimeline_window = '5..'\n"
+    [point] = points_of(write_spec, text)
+    timeline = ["--timeline", "--timeline-window", "5.."]
+    assert point.output_options() == ["--no-images", *timeline]
+    assert replace(point, from_recording=True).output_options() == timeline
+    analytic = replace(point, settings={"run.fidelity": "analytic"})
+    assert analytic.output_options() == ["--no-images"]

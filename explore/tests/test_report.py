@@ -111,6 +111,68 @@ def test_a_report_is_one_page_with_plots_and_links(explore: Explore, swept: Path
         assert picture.with_suffix(".svg").read_text().startswith("<svg")
 
 
+OUTPUTS = """scenes = ["tiny.gltf"]
+replay = true
+[set]
+image = { width = 8, height = 6 }
+[outputs]
+images = false
+timeline = true
+timeline_window = "0..5000"
+[[axis]]
+key = "l2.ways"
+values = [4, 8]
+[[axis]]
+key = "render.recursion_level"
+values = [0]
+[[axis]]
+key = "run.fidelity"
+values = ["timed", "functional"]
+"""
+
+
+@pytest.mark.parametrize("replay", ["true", "false"])
+def test_points_leave_what_the_spec_says_and_the_report_links_it(
+    explore: Explore, sheaf: Path, tiny_scene: Path, tmp_path: Path, replay: str
+) -> None:
+    spec, out = tiny_scene.with_name("spec.toml"), tmp_path / "out"
+    spec.write_text(OUTPUTS.replace("true", replay, 1))
+    done = explore("sweep", spec, "--sheaf", sheaf, "--out", out)
+    assert done.returncode == 0, done.stderr
+    for point in (out / "points").iterdir():
+        timed = 'fidelity = "timed"' in (point / "config.toml").read_text()
+        assert (point / "timeline.perfetto-trace").exists() == timed
+        assert not list(point.glob("*.png")) + list(point.glob("*.exr"))
+    assert explore("report", out).returncode == 0
+    page = (out / "report" / "index.html").read_text()
+    links = re.findall(r'href="(\.\./[^"]+)"', page)
+    assert all((out / "report" / address).exists() for address in links)
+    assert sum(address.endswith("timeline.perfetto-trace") for address in links) == 2
+    assert "open it with" in page
+    assert not [address for address in links if "image" in address]
+
+
+def test_a_report_without_timelines_does_not_speak_of_them(explore: Explore, swept: Path) -> None:
+    assert explore("report", swept).returncode == 0
+    assert "timeline" not in (swept / "report" / "index.html").read_text().split("<script>")[0]
+
+
+@pytest.mark.parametrize(("outputs", "line"), [("images = false\n", 3), ("\ntimeline = true\n", 4)])
+def test_a_simulator_that_cannot_write_what_is_asked_for_is_told_with_file_and_line(
+    explore: Explore,
+    write_spec: Write,
+    stand_in: Simulator,
+    tmp_path: Path,
+    outputs: str,
+    line: int,
+) -> None:
+    spec = write_spec('scenes = ["scene.glb"]\n[outputs]\n' + outputs)
+    done = explore("sweep", spec, "--sheaf", stand_in.path, "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert f"{spec}:{line}: " in done.stderr
+    assert "has no option --" in done.stderr
+
+
 _CHROMIUMS_OWN = re.compile(r"(^|\.)(google|googleapis|gvt1|gstatic)\.com$")
 CHROMIUM = shutil.which("chromium")
 

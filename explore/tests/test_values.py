@@ -15,6 +15,7 @@ from sheaf_explore.parameters import Parameters
 from sheaf_explore.quantities import (
     format_bytes,
     format_frequency,
+    is_window,
     parse_bytes,
     parse_duration,
     parse_frequency,
@@ -49,6 +50,24 @@ def test_durations_have_units() -> None:
         3,
         None,
     ]
+
+
+def test_windows_are_those_that_the_simulator_takes() -> None:
+    good = ["0..1", "..9", "5..", "..", "10000..20000"]
+    assert all(is_window(text) for text in good)
+    bad = [
+        "",
+        "5",
+        "9..9",
+        "9..5",
+        "a..b",
+        "..0",
+        "1..2..3",
+        "-1..5",
+        "0..٣",
+        "1..9999999999999999999",
+    ]
+    assert not any(is_window(text) for text in bad)
 
 
 def test_all_ways_to_write_a_size_are_one_value() -> None:

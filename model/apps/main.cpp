@@ -85,6 +85,7 @@ void declare_replay(CLI::App& app, sheaf::ReplayOptions& options) {
                    "in its recorded cycle)")
       ->capture_default_str()
       ->check(CLI::IsMember({"elastic", "fixed"}));
+  sheaf::declare_observation(*replay, options.watch);
   replay->add_option("--out", options.out, "Folder for the results (default result/replay)");
   replay->add_flag("--quiet", options.quiet, "Print no summary");
   declare_parent(*replay, options);
@@ -116,6 +117,8 @@ void declare(CLI::App& app, Commands& commands) {
       ->check(CLI::IsMember({"rays", "memory"}));
   sheaf::declare_observation(*run, commands.run.watch);
   run->add_option("--out", commands.run.out, "Folder for the results (default result/SCENE)");
+  run->add_flag("--no-images", commands.run.no_images,
+                "Write no pictures: no image.png, image.exr or heat maps");
   run->add_flag("--quiet", commands.run.quiet, "Print no summary");
   declare_parent(*run, commands.run);
   run->footer(kFooter);

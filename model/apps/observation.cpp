@@ -59,7 +59,7 @@ void declare_observation(CLI::App& command, WatchOptions& options) {
 }
 
 void check_observation(const WatchOptions& options, const Config& config) {
-  if (!options.timeline && options.vcd.empty()) {
+  if (!options.wanted()) {
     const WatchOptions untouched;
     if (options.window != untouched.window || options.every != untouched.every ||
         options.max_events != untouched.max_events) {

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "apps/run_command.h"
 #include "config/config.h"
 #include "report/result_folder.h"
 #include "report/timeline.h"
@@ -16,6 +17,17 @@ class App;
 }
 
 namespace sheaf {
+
+/// What else is to be written of a run, cycle by cycle.
+struct WatchOptions {
+  bool timeline = false;
+  std::string vcd;     ///< a unit's name; empty: none
+  std::string window;  ///< cycles, as WatchWindow::parse has them; empty: all
+  std::uint64_t every = 1;
+  std::uint64_t max_events = 1'000'000;
+
+  [[nodiscard]] bool wanted() const { return timeline || !vcd.empty(); }
+};
 
 /// Declares --timeline, --vcd and what says how much of a run they take.
 void declare_observation(CLI::App& command, WatchOptions& options);

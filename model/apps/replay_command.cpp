@@ -85,6 +85,7 @@ int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMe
                 fmt::format("{}: a sampled run replays no trace; set another run.fidelity",
                             options.trace.string()));
   }
+  check_observation(options.watch, config);
   const std::filesystem::path scene = scene_file(options, metadata);
   ResultFolder folder(options.out.empty() ? "result/replay" : options.out);
   FrameJob job{config, scene, metadata.scene_name, false, options.quiet, {}};
@@ -92,7 +93,11 @@ int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMe
   job.guest = [&](const PreparedScene& prepared, Frame& /*frame*/) {
     return std::make_unique<RayReplay>(reader, config, prepared, scene);
   };
-  return run_frame(job, folder);
+  Observation observation(options.watch, folder);
+  job.observers = observation.observers();
+  const int status = run_frame(job, folder);
+  observation.tell();
+  return status;
 }
 
 }  // namespace
@@ -104,8 +109,15 @@ int replay_command(const ReplayOptions& options) {
   reader.verify();
   const TraceMetadata metadata = read_metadata(reader);
   if (reader.identity().kind == TraceKind::kRays) return replay_rays(options, reader, metadata);
+  if (options.watch.wanted()) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: the units that made these accesses are not simulated; --timeline "
+                            "and --vcd need a trace of rays",
+                            options.trace.string()));
+  }
   const auto is_forbidden = [](std::string_view key) { return !shapes_memory_only(key); };
   const Config config = replay_config(options, metadata, "accesses", is_forbidden);
+  check_observation(options.watch, config);
   return replay_memory(options, config, reader, metadata);
 }
 

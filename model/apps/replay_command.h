@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/observation.h"
+
 namespace sheaf {
 
 struct ReplayOptions {
@@ -19,6 +21,7 @@ struct ReplayOptions {
   std::string cache;                            ///< see tree_folder()
   bool quiet = false;                           ///< no summary on standard output
   std::optional<int> parent;                    ///< process with which the replay is to end
+  WatchOptions watch;                           ///< rays
 };
 
 /// `sheaf replay`: runs a trace on another machine. Returns an exit code; throws Error for what the

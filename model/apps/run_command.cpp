@@ -37,7 +37,9 @@ int run_command(const RunOptions& options) {
   check_observation(options.watch, config);
   catch_interrupts();
   ResultFolder folder(output_folder(options));
-  FrameJob job{config, options.scene, options.scene.filename().string(), true, options.quiet, {}};
+  FrameJob job{
+      config, options.scene, options.scene.filename().string(), !options.no_images, options.quiet,
+      {}};
   job.trees = tree_folder(options.cache);
   Observation observation(options.watch, folder);
   job.observers = observation.observers();

@@ -2,22 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace sheaf {
+#include "apps/observation.h"
 
-/// What else is to be written of a run, cycle by cycle.
-struct WatchOptions {
-  bool timeline = false;
-  std::string vcd;     ///< a unit's name; empty: none
-  std::string window;  ///< cycles, as WatchWindow::parse has them; empty: all
-  std::uint64_t every = 1;
-  std::uint64_t max_events = 1'000'000;
-};
+namespace sheaf {
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -26,6 +18,7 @@ struct RunOptions {
   std::filesystem::path out;          ///< empty: result/<name of the scene>
   std::string cache;                  ///< see tree_folder()
   std::vector<std::string> record;    ///< kinds of trace to be written: rays, memory
+  bool no_images = false;             ///< leave the pictures out
   bool quiet = false;                 ///< no summary on standard output
   std::optional<int> parent;          ///< process with which the run is to end
   WatchOptions watch;

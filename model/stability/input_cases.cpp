@@ -28,7 +28,8 @@ class Scratch {
     }
     root_ = name;
     fs::create_directory(root_ / "scenes");
-    std::ofstream(root_ / "secret.bin") << std::string(4096, '\0');
+    std::ofstream(root_ / "secret.bin") << triangle_bytes();
+    fs::create_symlink(root_ / "secret.bin", root_ / "scenes" / "link.bin");
     std::ofstream(root_ / "scenes" / "data.bin") << triangle_bytes();
   }
   ~Scratch() {
@@ -61,17 +62,30 @@ class Scratch {
   fs::path root_;
 };
 
-/// One triangle, as it should be.
+/// PNG files of 70 bytes: of one texel, and with a header that claims 65535 × 65535.
+const char* const kSmallImage =
+    "data:image/"
+    "png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAAC0lEQVR42mNgAAIAAAUAAen63NgAAAAASUVORK5CYII=";
+const char* const kHugeImage =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAA//8AAP//"
+    "CAYAAAC2BdlQAAAAC0lEQVR42mNgAAIAAAUAAen63NgAAAAASUVORK5CYII=";
+
+/// One triangle with one texel on it, as it should be.
 Json sound() {
-  return Json::parse(R"({
+  Json scene = Json::parse(R"({
     "asset": {"version": "2.0"},
     "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+    "textures": [{"source": 0}],
     "buffers": [{"uri": "data.bin", "byteLength": 48}],
     "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36},
                     {"buffer": 0, "byteOffset": 36, "byteLength": 12}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
                   {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"}]})");
+  scene["images"] = Json::array({{{"uri", kSmallImage}}});
+  return scene;
 }
 
 struct Spoilt {
@@ -110,7 +124,8 @@ std::vector<Spoilt> beyond_the_folder() {
           {"the folder above, escaped", uri("%2e%2e/secret.bin")},
           {"up and down", uri("sub/../../secret.bin")},
           {"an absolute path", uri("/etc/hostname")},
-          {"a file URI", uri("file:///etc/hostname")}};
+          {"a file URI", uri("file:///etc/hostname")},
+          {"a link to a file outside", uri("link.bin")}};
 }
 
 std::vector<Spoilt> beyond_memory() {
@@ -120,6 +135,7 @@ std::vector<Spoilt> beyond_memory() {
              j["accessors"][0]["count"] = 1LL << 40;
            }},
           {"a buffer of 100 GB", [](Json& j) { j["buffers"][0]["byteLength"] = 100'000'000'000; }},
+          {"an image of 17 GB", [](Json& j) { j["images"][0]["uri"] = kHugeImage; }},
           {"a million million triangles by instances",
            [](Json& j) {
              j["nodes"] = Json::array();

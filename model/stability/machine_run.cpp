@@ -35,6 +35,10 @@ Scene make_scene() {
   light.intensity = Vec3(50.0F);
   scene.lights = {light};
   scene.background = Vec3(0.3F, 0.4F, 0.5F);
+  return scene;
+}
+
+Scene with_needs(Scene scene) {
   scene.needs = make_needs(scene);
   return scene;
 }
@@ -93,7 +97,11 @@ std::string run_here(const Config& config, const PreparedScene& scene) {
 }  // namespace
 
 MachineScene::MachineScene(std::uint32_t recursion_level)
-    : recursion_level_(recursion_level), scene_(make_scene(), resolve_config({}, all({}))) {}
+    : MachineScene(make_scene(), recursion_level) {}
+
+MachineScene::MachineScene(Scene scene, std::uint32_t recursion_level)
+    : recursion_level_(recursion_level),
+      scene_(with_needs(std::move(scene)), resolve_config({}, all({}))) {}
 
 std::vector<std::string> MachineScene::all(const std::vector<std::string>& settings) const {
   std::vector<std::string> result = {"image.width=16", "image.height=16", "film.format=exact",

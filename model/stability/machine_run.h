@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "scene/scene.h"
 #include "system/prepared_scene.h"
 
 namespace sheaf::stability {
@@ -19,11 +20,12 @@ struct MachineRun {
   std::uint64_t rays = 0;     ///< hash of the ray counts by kind and depth
 };
 
-/// A small scene with mirrors, glass and a light, prepared for pictures of 16 × 16 pixels in the
-/// exact film, `recursion_level` deep.
+/// A scene prepared for pictures of 16 × 16 pixels in the exact film, `recursion_level` deep.
 class MachineScene {
  public:
+  /// A small one with mirrors, glass and a light.
   explicit MachineScene(std::uint32_t recursion_level);
+  MachineScene(Scene scene, std::uint32_t recursion_level);
   /// `settings` are those of --set. A machine that takes more than a minute of processor time
   /// is taken to hang.
   [[nodiscard]] MachineRun run(const std::vector<std::string>& settings) const;

@@ -10,12 +10,11 @@
 #include <utility>
 
 #include "geometry/watertight.h"
-#include "kdtree/build.h"
 
 namespace sheaf::stability {
 
-MeshScene::MeshScene(Mesh source)
-    : mesh(std::move(source)), tree(build_kd_tree(mesh.positions, mesh.triangles)) {
+MeshScene::MeshScene(Mesh source, const KdBuildOptions& options)
+    : mesh(std::move(source)), tree(build_kd_tree(mesh.positions, mesh.triangles, options)) {
   for (const auto& t : mesh.triangles) {
     records.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
   }
@@ -60,13 +59,24 @@ RayPacket random_packet(Random& random, int size, const MeshScene& scene) {
   return packet;
 }
 
+namespace {
+
+/// `lanes` copies of a ray.
+RayPacket trace_copies(const MeshScene& scene, const Ray& ray, TraversalScheme scheme, int lanes,
+                       TraceCounts& counts) {
+  RayPacket packet;
+  packet.clear(lanes);
+  for (int lane = 0; lane < lanes; ++lane) packet.put(lane, ray);
+  trace_packet(scheme, scene.tree, scene.records, packet, nullptr, nullptr, counts);
+  return packet;
+}
+
+}  // namespace
+
 Hit trace_one(const MeshScene& scene, const Ray& ray, TraversalScheme scheme) {
   const std::size_t lanes = scheme == TraversalScheme::kSingle ? 1 : 2;
-  RayPacket packet;
-  packet.clear(static_cast<int>(lanes));
-  for (std::size_t lane = 0; lane < lanes; ++lane) packet.put(static_cast<int>(lane), ray);
   TraceCounts counts;
-  trace_packet(scheme, scene.tree, scene.records, packet, nullptr, nullptr, counts);
+  const RayPacket packet = trace_copies(scene, ray, scheme, static_cast<int>(lanes), counts);
   std::array<Hit, 2> hits;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     if (packet.hit_triangle[lane] != kNoHit) {
@@ -75,6 +85,16 @@ Hit trace_one(const MeshScene& scene, const Ray& ray, TraversalScheme scheme) {
   }
   if (lanes == 2 && hits[0] != hits[1]) throw std::logic_error("equal rays fare differently");
   return hits[0];
+}
+
+bool masked_takes_steps_of_single(const MeshScene& scene, const Ray& ray) {
+  TraceCounts single;
+  TraceCounts masked;
+  static_cast<void>(trace_copies(scene, ray, TraversalScheme::kSingle, 1, single));
+  static_cast<void>(trace_copies(scene, ray, TraversalScheme::kMasked, 2, masked));
+  return masked.lane_inner_visits == 2 * single.lane_inner_visits &&
+         masked.lane_leaf_visits == 2 * single.lane_leaf_visits &&
+         masked.lane_triangle_tests == 2 * single.lane_triangle_tests;
 }
 
 Hit test_all(const MeshScene& scene, const Ray& ray) {

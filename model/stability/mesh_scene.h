@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kdtree/kd_tree.h"
+#include "kdtree/build.h"
 #include "stability/mesh.h"
 #include "traversal/trace.h"
 
@@ -14,7 +14,7 @@ namespace sheaf::stability {
 
 /// A mesh with all that trace_packet() needs.
 struct MeshScene {
-  explicit MeshScene(Mesh source);
+  explicit MeshScene(Mesh source, const KdBuildOptions& options = {});
   Mesh mesh;
   KdTree tree;
   std::vector<TriangleRecord> records;
@@ -37,6 +37,9 @@ struct Hit {
 /// the vector kernel; throws std::logic_error if the two fare differently.
 [[nodiscard]] Hit trace_one(const MeshScene& scene, const Ray& ray,
                             TraversalScheme scheme = TraversalScheme::kSingle);
+/// Whether two copies of a ray, side by side, take the steps that the ray takes alone, each of
+/// them.
+[[nodiscard]] bool masked_takes_steps_of_single(const MeshScene& scene, const Ray& ray);
 /// The same triangle test on every triangle: what a traversal that loses nothing must find.
 [[nodiscard]] Hit test_all(const MeshScene& scene, const Ray& ray);
 

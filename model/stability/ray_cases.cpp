@@ -22,6 +22,8 @@ constexpr int kExactEvery = 20;
 const char* const kNoLoss =
     "the traversal tests a superset of what it must, with one arithmetic for all schemes "
     "(decision 0011)";
+const char* const kSameSteps =
+    "a lane is active where its ray alone would go: the planes' distances are the same numbers";
 const char* const kSixUlps =
     "6 = sqrt(2) (2 + 4), rounded up: roundings of (a_k - o_k) - s (a_z - o_z) and of s, after "
     "Woop, "
@@ -45,16 +47,19 @@ class RayMeasurement {
       for (const auto scheme : kTraversalSchemes) {
         lost_.check(trace_one(scene_, ray, scheme) == hit, [&] { return describe(ray); });
       }
+      steps_.check(masked_takes_steps_of_single(scene_, ray), [&] { return describe(ray); });
       hold_against_doubles(ray, hit);
       if (hit.triangle != kNoHit) hold_against_integers(ray, hit);
       if (i % kExactEvery == 0) check_decisions(ray);
     }
-    return {lost_.finding("hits that a scheme loses or changes", kNoLoss),
-            signs_.finding("edge decisions unlike exact arithmetic's", kMonotone),
-            outside_.finding("distance of a hit outside its triangle, in u × reach", {6, kSixUlps}),
-            exact_outside_.finding("the same by exact arithmetic, in u × reach", {6, kSixUlps}),
-            overlooked_.finding("triangles overlooked that are surely nearer", kSixUlps),
-            t_.finding("error of t in units of its bound, exact arithmetic", {1, kTBound})};
+    return {
+        lost_.finding("hits that a scheme loses or changes", kNoLoss),
+        steps_.finding("rays whose steps in a packet are not those they take alone", kSameSteps),
+        signs_.finding("edge decisions unlike exact arithmetic's", kMonotone),
+        outside_.finding("distance of a hit outside its triangle, in u × reach", {6, kSixUlps}),
+        exact_outside_.finding("the same by exact arithmetic, in u × reach", {6, kSixUlps}),
+        overlooked_.finding("triangles overlooked that are surely nearer", kSixUlps),
+        t_.finding("error of t in units of its bound, exact arithmetic", {1, kTBound})};
   }
 
  private:
@@ -99,7 +104,7 @@ class RayMeasurement {
 
   const RayScene& source_;
   const MeshScene scene_;
-  Failures lost_, signs_, overlooked_;
+  Failures lost_, steps_, signs_, overlooked_;
   Largest outside_, exact_outside_, t_;
 };
 

@@ -11,6 +11,7 @@
 #include "stability/catalogue.h"
 #include "stability/mesh_scene.h"
 #include "stability/shaded_mesh.h"
+#include "stability/two_mirrors.h"
 
 namespace sheaf::stability {
 namespace {
@@ -151,51 +152,6 @@ Mesh large_through_zero(float scale) {
     mesh.add(at - 0.5F * u - 0.3F * v, at + 0.5F * u - 0.3F * v, at + 0.7F * v);
   }
   return mesh;
-}
-
-/// Two parallel mirrors one unit apart, the lower one glowing, seen slightly aslant from between.
-std::vector<Finding> two_mirrors() {
-  constexpr int kDepth = 100;
-  constexpr float kReflectance = 0.999F;
-  Mesh mesh;
-  for (const float z : {0.0F, 1.0F}) {
-    mesh.add_quad(Vec3(-50.0F, -50.0F, z), Vec3(100.0F, 0.0F, 0.0F), Vec3(0.0F, 100.0F, 0.0F));
-  }
-  Material mirror;
-  mirror.diffuse_weight = 0.0F;
-  mirror.mirror_weight = kReflectance;
-  mirror.mirror_tinted = false;
-  Scene scene = scene_of(mesh, mirror);
-  scene.materials.push_back(mirror);
-  scene.materials[0].emission = Vec3(1.0F, 1e-30F, 1e30F);
-  scene.triangle_material = {0, 0, 1, 1};
-  scene.camera.position = Vec3(-10.0F, -10.0F, 0.5F);
-  scene.camera.forward = glm::normalize(Vec3(0.1F, 0.07F, -1.0F));
-  scene.camera.right = glm::normalize(glm::cross(scene.camera.forward, Vec3(0.0F, 1.0F, 0.0F)));
-  scene.camera.up = glm::cross(scene.camera.right, scene.camera.forward);
-  scene.camera.half_height = 0.01F;
-  const Picture picture = render(scene, {fmt::format("render.recursion_level={}", kDepth)});
-
-  double expected = 0.0;  // reflectance^0 + reflectance^2 + … + reflectance^100
-  for (int bounce = 0; bounce <= kDepth; bounce += 2) {
-    expected += std::pow(double{kReflectance}, bounce);
-  }
-  Largest error;
-  Failures rays;
-  for (const Vec3& pixel : picture.pixels) {
-    for (int channel = 0; channel < 3; ++channel) {
-      const double right = expected * double{scene.materials[0].emission[channel]};
-      error.add(std::abs(double{pixel[channel]} - right) / right, [] { return ""; });
-    }
-  }
-  rays.check(picture.num_rays == picture.pixels.size() * (kDepth + 1),
-             [&] { return fmt::format("{} rays", picture.num_rays); });
-  return {error.finding("relative error of a pixel against the geometric series",
-                        {gamma(kDepth + 2),
-                         "gamma(102): 100 products of weights, one with the emission, one rounding "
-                         "of the exact sum"}),
-          rays.finding("pictures with more or fewer than 101 rays a pixel",
-                       "each ray meets the other mirror")};
 }
 
 }  // namespace

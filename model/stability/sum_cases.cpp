@@ -11,42 +11,20 @@
 #include "image/film.h"
 #include "stability/catalogue.h"
 #include "stability/exact.h"
+#include "stability/film_rounding.h"
 
 namespace sheaf::stability {
 namespace {
 
-/// A film's format as rounding error analysis sees it.
-struct Format {
-  FilmFormat format;
-  const char* name;
-  double relative;  ///< half an ulp of the sum
-  double absolute;  ///< half the least step
-  double largest;   ///< sums saturate here
-};
-constexpr double kFloatMax = 0x1.fffffep127;
-constexpr Format kFormats[] = {{FilmFormat::kUnorm8, "unorm8", 0.0, 1.0 / 510.0, 1.0},
-                               {FilmFormat::kHalf, "half", 0x1p-11, 0x1p-25, 65504.0},
-                               {FilmFormat::kFloat, "float", 0x1p-24, 0x1p-150, kFloatMax}};
-
-const char* const kRunning =
-    "running error bound: the sum over all partial sums s of half an ulp of s (Higham 2002, "
-    "section 4.3); no larger than the sum itself";
 const char* const kOnce = "half an ulp of a float: the exact film rounds once, when it is read";
 
-/// Relative error of one format's sum.
-Finding sum_in(const Format& format, const std::vector<float>& terms) {
+Finding sum_in(const FilmRounding& format, const std::vector<float>& terms) {
   const auto film = make_film(format.format, 1);
-  double bound = 0.0;
-  for (const float term : terms) {
-    film->add(0, Vec3(term));
-    bound += format.relative * double{film->value(0).x} + format.absolute;
-  }
-  const double right = std::min(sum_exactly(terms), format.largest);
-  const double error = std::abs(double{film->value(0).x} - right) / right;
+  for (const float term : terms) film->add(0, Vec3(term));
   return {fmt::format("relative error in {}", format.name),
           terms.size(),
-          error,
-          {std::min(bound / right, 1.0), kRunning},
+          relative_error(format, double{film->value(0).x}, sum_exactly(terms)),
+          {relative_error_bound(format, terms), kRunningErrorBound},
           ""};
 }
 
@@ -68,7 +46,7 @@ Finding sum_in_exact_film(std::vector<float> terms, Random& random) {
 
 std::vector<Finding> sum_in_all(const std::vector<float>& terms) {
   std::vector<Finding> findings;
-  for (const Format& format : kFormats) findings.push_back(sum_in(format, terms));
+  for (const FilmRounding& format : kFilmRoundings) findings.push_back(sum_in(format, terms));
   Random random(71);
   findings.push_back(sum_in_exact_film(terms, random));
   return findings;

@@ -26,43 +26,11 @@ constexpr Cycles kStillCycles = 16;
 ClockedMachine::ClockedMachine(const Config& config, const BuildPlan& plan,
                                const PreparedScene& scene, Frame& frame, const RunHooks& hooks)
     : MachineParts(config, plan, scene, frame, hooks) {
-  build_memory();
+  memory_ = std::make_unique<ClockedMemory>(config_);
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
   list_units();
-}
-
-void ClockedMachine::build_memory() {
-  if (config_.dram.model == DramModel::kFixed) {
-    dram_ = std::make_unique<clocked::FixedDram>(config_.l2.hit_latency, config_.dram);
-  } else {
-    dram_ = std::make_unique<clocked::BankedDram>(
-        config_.l2.hit_latency, resolve_dram(config_.dram), config_.clock.frequency);
-  }
-  l2_ = std::make_unique<clocked::L2Cache>(config_.l2, config_.crossbar, *dram_);
-}
-
-// The number of one more requester at the L2, with its links there and back.
-std::uint16_t ClockedMachine::add_requester(const CacheSpec& spec) {
-  const auto number = static_cast<std::uint16_t>(requests_.size());
-  const Cycles latency = config_.link.memory_latency;
-  const Bytes bytes = spec.line / spec.sectors;
-  const Cycles transfer = (bytes + config_.link.memory_width - 1) / config_.link.memory_width;
-  requests_.push_back(std::make_unique<Link<LineRequest>>(
-      fmt::format("cache_{}_to_l2", number),
-      Link<LineRequest>::Spec{.latency = latency, .interval = 0}));
-  links_.l2_to_caches.push_back(std::make_unique<Link<LineResponse>>(
-      fmt::format("l2_to_cache_{}", number),
-      Link<LineResponse>::Spec{.latency = latency, .interval = transfer}));
-  l2_->in_requests.push_back(requests_.back().get());
-  l2_->out_responses.push_back(links_.l2_to_caches.back().get());
-  return number;
-}
-
-clocked::Cache ClockedMachine::make_cache(const CacheSpec& spec) {
-  const std::uint16_t number = add_requester(spec);
-  return {spec, number, *requests_[number], *links_.l2_to_caches[number]};
 }
 
 void ClockedMachine::build_units() {
@@ -81,17 +49,17 @@ void ClockedMachine::build_units() {
   for (std::uint32_t i = 0; i < config_.traversal_unit.count; ++i) {
     traversal_units_.push_back(std::make_unique<clocked::TraversalUnit>(
         fmt::format("traversal_unit{}", i), config_.traversal_unit, config_.packet.size, traced,
-        frame_.heat, static_cast<std::uint16_t>(i), make_cache(config_.node_cache)));
+        frame_.heat, static_cast<std::uint16_t>(i), memory_->make_cache(config_.node_cache)));
   }
   for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
     intersection_units_.push_back(std::make_unique<clocked::IntersectionUnit>(
         fmt::format("intersection_unit{}", i), config_.intersection_unit, config_.packet.size,
-        traced, make_cache(config_.triangle_cache)));
+        traced, memory_->make_cache(config_.triangle_cache)));
   }
   for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
-    clocked::Cache attributes = make_cache(config_.attribute_cache);
+    clocked::Cache attributes = memory_->make_cache(config_.attribute_cache);
     std::optional<clocked::Cache> textures;
-    if (plan_.texture_cache) textures.emplace(make_cache(config_.texture_cache));
+    if (plan_.texture_cache) textures.emplace(memory_->make_cache(config_.texture_cache));
     shader_units_.push_back(std::make_unique<clocked::ShaderUnit>(
         fmt::format("shader_unit{}", i), config_.shader_unit, config_.packet.size, shaded,
         std::move(attributes), std::move(textures)));
@@ -101,7 +69,7 @@ void ClockedMachine::build_units() {
                                                            scene_.scene, packets_, flow_);
   }
   film_ = std::make_unique<clocked::FilmUnit>("film", *frame_.film, scene_.memory, batches_, flow_,
-                                              make_cache(config_.film_cache));
+                                              memory_->make_cache(config_.film_cache));
 }
 
 void ClockedMachine::build_regrouper() {
@@ -135,16 +103,15 @@ void ClockedMachine::build_regrouper() {
 void ClockedMachine::build_spill() {
   links_.spill_to_regrouper = std::make_unique<Link<SpawnBundle*>>(
       "spill_to_regrouper", Link<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
-  CacheSpec line;
-  line.line = config_.l2.line / config_.l2.sectors;
-  const std::uint16_t number = add_requester(line);
+  const Bytes line = config_.l2.line / config_.l2.sectors;
+  const ClockedMemory::Requester requester = memory_->add_requester(line);
   spill_ = std::make_unique<clocked::SpillUnit>(
       "spill",
       SpillUnit::Spec{.queue = config_.flow.spill_queue,
-                      .line = line.line,
+                      .line = line,
                       .base = scene_.memory.region(DataKind::kSpilledRay).base,
-                      .requester = number},
-      *requests_[number], *links_.l2_to_caches[number]);
+                      .requester = requester.number},
+      requester.requests, requester.lines);
   spill_->in_bundles = links_.spawned_rays.get();
   spill_->out_bundles = links_.spill_to_regrouper.get();
 }
@@ -236,14 +203,13 @@ void ClockedMachine::list_units() {
 }
 
 void ClockedMachine::tick(Cycles now) {
-  l2_->tick(now);
-  dram_->tick(now);
+  memory_->tick(now);
   for (clocked::Unit* unit : units_) unit->tick(now);
   num_wakes_ += units_.size();
 }
 
 bool ClockedMachine::is_at_rest() const {
-  return film_->is_done() && l2_->is_idle();
+  return film_->is_done() && memory_->l2().is_idle();
 }
 
 bool ClockedMachine::run(const Monitor& monitor) {
@@ -260,17 +226,17 @@ bool ClockedMachine::run(const Monitor& monitor) {
   finish_accounts(end_);
   if (!complete_) return false;
   // What has been written may still be on its way to memory.
-  for (; !dram_->is_idle(); ++now) dram_->tick(now);
+  memory_->drain(now);
   check_conservation();
   return true;
 }
 
 // Nothing is on its way, and no unit works at anything.
 bool ClockedMachine::is_still(Cycles now) const {
-  bool moving = !l2_->is_idle() || (ray_cache_ && ray_cache_->will_time_out());
+  bool moving = !memory_->l2().is_idle() || (ray_cache_ && ray_cache_->will_time_out());
   for (const auto* unit : units_) moving |= unit->stalls().cause() == StallCause::kBusy;
   links_.for_each([&](const auto& link) { moving |= link.is_moving(now); });
-  for (const auto& link : requests_) moving |= link->is_moving(now);
+  memory_->for_each_link([&](const auto& link) { moving |= link.is_moving(now); });
   return !moving;
 }
 
@@ -292,7 +258,7 @@ std::string ClockedMachine::describe_stuck(Cycles now) const {
     if (cause == StallCause::kIdle) continue;
     text += fmt::format("; {}: {}", unit->name(), to_string(cause));
   }
-  if (!l2_->is_idle()) text += "; l2: requests queued";
+  if (!memory_->l2().is_idle()) text += "; l2: requests queued";
   return text;
 }
 

@@ -5,11 +5,10 @@
 #include <functional>
 #include <string>
 
+#include "system/clocked_memory.h"
 #include "system/machine_parts.h"
-#include "units/clocked/dram.h"
 #include "units/clocked/film.h"
 #include "units/clocked/intersection_unit.h"
-#include "units/clocked/l2_cache.h"
 #include "units/clocked/packet_arbiter.h"
 #include "units/clocked/primary_source.h"
 #include "units/clocked/ray_cache.h"
@@ -35,8 +34,7 @@ struct ClockedKind {
   using Spill = clocked::SpillUnit;
   using ShaderCache = clocked::ShaderCache;
   using Film = clocked::FilmUnit;
-  using L2 = clocked::L2Cache;
-  using Memory = clocked::Dram;
+  using Memory = ClockedMemory;
 };
 
 /// The reference for Machine: the same machine with a clock. In every cycle every unit ticks, in
@@ -55,7 +53,6 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   template <typename T>
   using Channels = std::vector<std::unique_ptr<clocked::Link<T>>>;
 
-  void build_memory();
   void build_units();
   void build_regrouper();
   void build_spill();
@@ -64,8 +61,6 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void list_units();
   template <typename T>
   clocked::Link<T>& add_link(Channels<T>& links, const std::string& name);
-  std::uint16_t add_requester(const CacheSpec& spec);
-  [[nodiscard]] clocked::Cache make_cache(const CacheSpec& spec);
 
   void tick(Cycles now);
   [[nodiscard]] bool is_at_rest() const;
@@ -73,7 +68,6 @@ class ClockedMachine : public MachineParts<ClockedKind> {
   void check_progress(Cycles now);
   [[nodiscard]] std::string describe_stuck(Cycles now) const;
   std::vector<clocked::Unit*> units_;  ///< in the order in which they tick
-  Channels<LineRequest> requests_;     ///< of each requester
   Cycles still_since_ = kNever;
 };
 

@@ -111,19 +111,7 @@ void MachineParts<Kind>::check_conservation() const {
     fetched += spill_->stats().num_lines_read * spill_->line();
     written += spill_->stats().num_lines_written * spill_->line();
   }
-
-  const L2Stats& l2 = l2_->stats();
-  const DramStats dram = dram_->stats(end_);
-  require_equal(l2.num_accesses, l2.num_hits + l2.num_misses + l2.num_merges,
-                "l2: accesses = hits + misses + merges");
-  require_equal(fetched, l2.bytes_requested, "bytes into the private caches = bytes out of the l2");
-  require_equal(written, l2.bytes_received, "bytes out of the private caches = bytes into the l2");
-  require_equal(l2.queue_occupancy_cycles, l2.bank_wait_cycles,
-                "l2: mean occupancy of its queues = throughput x mean wait");
-  require_equal(l2.mshr_occupancy_cycles, l2.sum_miss_latency,
-                "l2: mean MSHRs in use = misses per cycle x mean latency");
-  require_equal(l2.bytes_read, dram.bytes_read, "bytes into the l2 = bytes out of dram");
-  require_equal(l2.bytes_written, dram.bytes_written, "bytes out of the l2 = bytes into dram");
+  memory_->check_conservation(fetched, written, end_);
 }
 
 template void MachineParts<TimedKind>::check_conservation() const;

@@ -7,9 +7,6 @@
 #include <algorithm>
 
 #include "base/errors.h"
-#include "memory/banked_dram.h"
-#include "memory/fixed_dram.h"
-#include "system/memory_system.h"
 #include "system/pipeline_parts.h"
 
 namespace sheaf {
@@ -36,7 +33,7 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
     : MachineParts(config, plan, scene, frame, hooks),
       domain_("clock_domain", clock_period(config)) {
   if (config_.run.fidelity == Fidelity::kDecoupled) domain_.set_quantum(config_.run.quantum);
-  build_memory();
+  memory_ = std::make_unique<MemorySystem>(config_, domain_);
   build_units();
   if (plan_.secondary_rays) build_regrouper();
   connect();
@@ -45,38 +42,6 @@ Machine::Machine(const Config& config, const BuildPlan& plan, const PreparedScen
 }
 
 Machine::~Machine() = default;
-
-void Machine::build_memory() {
-  links_.caches_to_l2 = std::make_unique<TimedChannel<LineRequest>>(
-      "caches_to_l2",
-      TimedChannel<LineRequest>::Spec{
-          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = 0});
-  l2_ = std::make_unique<L2Cache>("l2", config_.l2, config_.crossbar, domain_);
-  if (config_.dram.model == DramModel::kFixed) {
-    dram_ = std::make_unique<FixedDram>("dram", config_.dram, domain_.period());
-  } else {
-    auto banked = std::make_unique<BankedDram>("dram", resolve_dram(config_.dram),
-                                               config_.clock.frequency, domain_);
-    l2_->expect_answers_from(banked->agent());
-    dram_ = std::move(banked);
-  }
-  l2_->in_requests(*links_.caches_to_l2);
-  l2_->to_dram.bind(dram_->from_cache);
-}
-
-// A private cache's number at the L2, with the link that brings its lines.
-std::uint16_t Machine::add_requester(const CacheSpec& cache) {
-  auto& links = links_.l2_to_caches;
-  const auto number = static_cast<std::uint16_t>(links.size());
-  const Cycles transfer =
-      (cache.line / cache.sectors + config_.link.memory_width - 1) / config_.link.memory_width;
-  links.push_back(std::make_unique<TimedChannel<LineResponse>>(
-      fmt::format("l2_to_cache_{}", number).c_str(),
-      TimedChannel<LineResponse>::Spec{
-          .capacity = kNeverFull, .latency = config_.link.memory_latency, .interval = transfer}));
-  l2_->out_responses(*links.back());
-  return number;
-}
 
 void Machine::build_units() {
   const int packet_size = static_cast<int>(config_.packet.size);
@@ -88,7 +53,7 @@ void Machine::build_units() {
   const AnswerTimes times = answer_times(config_);
   const TileOrder order(config_.image.width, config_.image.height, config_.flow.tile_size,
                         packet_size, hooks_.tile_choice);
-  TimedOut<LineRequest>& memory = *links_.caches_to_l2;
+  TimedOut<LineRequest>& memory = memory_->requests();
 
   primary_source_ = std::make_unique<PrimarySource>(
       "primary_source", config_.primary_source, config_.image, order, scene_.scene.camera, packets_,
@@ -97,42 +62,41 @@ void Machine::build_units() {
                                                     config_.traversal_unit.count,
                                                     config_.traversal_unit.contexts, domain_);
   for (std::uint32_t i = 0; i < config_.traversal_unit.count; ++i) {
-    const std::uint16_t requester = add_requester(config_.node_cache);
+    const std::uint16_t requester = memory_->add_requester(config_.node_cache);
     traversal_units_.push_back(std::make_unique<TraversalUnit>(
         fmt::format("traversal_unit{}", i).c_str(), config_.traversal_unit, packet_size,
         config_.node_cache, traced, times, &frame_.heat, domain_, static_cast<std::uint16_t>(i),
         memory, requester));
-    traversal_units_.back()->in_lines(*links_.l2_to_caches.back());
+    traversal_units_.back()->in_lines(memory_->lines(requester));
   }
   for (std::uint32_t i = 0; i < config_.intersection_unit.count; ++i) {
-    const std::uint16_t requester = add_requester(config_.triangle_cache);
+    const std::uint16_t requester = memory_->add_requester(config_.triangle_cache);
     intersection_units_.push_back(std::make_unique<IntersectionUnit>(
         fmt::format("intersection_unit{}", i).c_str(), config_.intersection_unit, packet_size,
         config_.triangle_cache, traced, times, domain_, memory, requester));
-    intersection_units_.back()->in_lines(*links_.l2_to_caches.back());
+    intersection_units_.back()->in_lines(memory_->lines(requester));
   }
   for (std::uint32_t i = 0; i < config_.shader_unit.count; ++i) {
-    const std::uint16_t attributes = add_requester(config_.attribute_cache);
-    auto& attribute_lines = *links_.l2_to_caches.back();
+    const std::uint16_t attributes = memory_->add_requester(config_.attribute_cache);
     const std::uint16_t textures =
-        plan_.texture_cache ? add_requester(config_.texture_cache) : attributes;
+        plan_.texture_cache ? memory_->add_requester(config_.texture_cache) : attributes;
     shader_units_.push_back(std::make_unique<ShaderUnit>(
         fmt::format("shader_unit{}", i).c_str(), config_.shader_unit, packet_size,
         config_.attribute_cache, plan_.texture_cache ? &config_.texture_cache : nullptr, shaded,
         domain_, memory, attributes, textures));
-    shader_units_.back()->in_attribute_lines(attribute_lines);
+    shader_units_.back()->in_attribute_lines(memory_->lines(attributes));
     if (plan_.texture_cache) {
-      shader_units_.back()->in_texture_lines(*links_.l2_to_caches.back());
+      shader_units_.back()->in_texture_lines(memory_->lines(textures));
     }
   }
   if (plan_.shader_cache) {
     shader_cache_ = std::make_unique<ShaderCacheUnit>("shader_cache", config_.shader_cache,
                                                       scene_.scene, packets_, flow_, domain_);
   }
-  film_ =
-      std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory, batches_,
-                                 flow_, domain_, memory, add_requester(config_.film_cache));
-  film_->in_lines(*links_.l2_to_caches.back());
+  const std::uint16_t film = memory_->add_requester(config_.film_cache);
+  film_ = std::make_unique<FilmUnit>("film", config_.film_cache, *frame_.film, scene_.memory,
+                                     batches_, flow_, domain_, memory, film);
+  film_->in_lines(memory_->lines(film));
 }
 
 void Machine::build_regrouper() {
@@ -168,17 +132,17 @@ void Machine::build_spill() {
       "spill_to_regrouper", TimedChannel<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
   CacheSpec line;
   line.line = config_.l2.line / config_.l2.sectors;
-  const std::uint16_t requester = add_requester(line);
+  const std::uint16_t requester = memory_->add_requester(line);
   spill_ = std::make_unique<SpillUnit>(
       "spill",
       SpillUnit::Spec{.queue = config_.flow.spill_queue,
                       .line = line.line,
                       .base = scene_.memory.region(DataKind::kSpilledRay).base,
                       .requester = requester},
-      *links_.caches_to_l2, domain_);
+      memory_->requests(), domain_);
   spill_->in_bundles(*links_.spawned_rays);
   spill_->out_bundles(*links_.spill_to_regrouper);
-  spill_->in_lines(*links_.l2_to_caches.back());
+  spill_->in_lines(memory_->lines(requester));
 }
 
 void Machine::connect() {
@@ -276,7 +240,7 @@ bool Machine::run(const Monitor& monitor) {
   num_wakes_ = domain_.num_wakes();
   for (MachineObserver* observer : observers_) observer->finish(end_);
   finish_accounts(end_);
-  dram_->finish(end_);
+  memory_->dram().finish(end_);
   if (domain_.ran_dry()) {
     if (!flow_.finished()) throw Error(ExitCode::kStuck, describe_stuck());
     check_conservation();
@@ -303,7 +267,7 @@ std::string Machine::describe_stuck() const {
   add(spawn_router_.get());
   add(spill_.get());
   add(film_.get());
-  add(l2_.get());
+  add(&memory_->l2());
   if (links_.packet_fifo && links_.packet_fifo->size() != 0) {
     text += fmt::format("; packet_fifo: {} packets", links_.packet_fifo->size());
   }

@@ -7,10 +7,9 @@
 #include <systemc>
 
 #include "channels/clock_domain.h"
-#include "memory/l2_cache.h"
-#include "memory/main_memory.h"
 #include "system/machine_observer.h"
 #include "system/machine_parts.h"
+#include "system/memory_system.h"
 #include "system/tag_hierarchy.h"
 #include "units/film_unit.h"
 #include "units/intersection_unit.h"
@@ -41,8 +40,7 @@ struct TimedKind {
   using Spill = SpillUnit;
   using ShaderCache = ShaderCacheUnit;
   using Film = FilmUnit;
-  using L2 = L2Cache;
-  using Memory = MainMemory;
+  using Memory = MemorySystem;
 };
 
 /// The machine that a configuration describes, built for one scene: units, channels and memory,
@@ -75,7 +73,6 @@ class Machine : public MachineParts<TimedKind> {
   [[nodiscard]] ClockDomain& clock_domain() { return domain_; }
 
  private:
-  void build_memory();
   void build_units();
   void build_regrouper();
   void build_spill();
@@ -84,7 +81,6 @@ class Machine : public MachineParts<TimedKind> {
   void record_memory(MemoryRecorder& recorder);
   void connect_shader_cache();
   [[nodiscard]] std::string describe_stuck() const;
-  [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
   [[nodiscard]] MachineProbes probes();
   void probe_units(MachineProbes& probes) const;
   void probe_links(MachineProbes& probes) const;

@@ -5,14 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "memory/memory_messages.h"
 #include "sorting/spawn_bundle.h"
 #include "units/messages.h"
 #include "units/shader_unit.h"
 
 namespace sheaf {
 
-/// All links of a machine, by what they join.
+/// All links between the units of a machine, by what they join.
 template <template <typename> typename Link>
 struct MachineLinks {
   template <typename T>
@@ -30,8 +29,6 @@ struct MachineLinks {
   std::unique_ptr<Link<FilmBatch*>> shader_to_film;
   std::unique_ptr<Link<SpawnBundle*>> spawned_rays;
   std::unique_ptr<Link<SpawnBundle*>> spill_to_regrouper;  ///< only with a spill unit
-  std::unique_ptr<Link<LineRequest>> caches_to_l2;
-  Channels<LineResponse> l2_to_caches;  ///< one per requester
 
   /// Calls f(link) for each that has been built.
   template <typename F>
@@ -54,8 +51,6 @@ struct MachineLinks {
     one(shader_to_film);
     one(spawned_rays);
     one(spill_to_regrouper);
-    one(caches_to_l2);
-    all(l2_to_caches);
   }
 };
 

@@ -55,8 +55,7 @@ class MachineParts {
   std::unique_ptr<typename Kind::Spill> spill_;
   std::unique_ptr<typename Kind::ShaderCache> shader_cache_;
   std::unique_ptr<typename Kind::Film> film_;
-  std::unique_ptr<typename Kind::L2> l2_;
-  std::unique_ptr<typename Kind::Memory> dram_;
+  std::unique_ptr<typename Kind::Memory> memory_;
   Cycles end_ = 0;
   bool complete_ = false;
   std::uint64_t num_wakes_ = 0;

@@ -59,7 +59,7 @@ MachineProbes Machine::probes() {
     probes.levels.push_back({"rays_in_cells", shader_cache_->name(),
                              [this] { return shader_cache_->sorter().num_waiting(); }});
   }
-  probes.dram = dynamic_cast<BankedDram*>(dram_.get());
+  probes.dram = dynamic_cast<BankedDram*>(&memory_->dram());
   return probes;
 }
 

@@ -107,14 +107,7 @@ void MachineParts<Kind>::report_links(StatsTree& stats) const {
 template <typename Kind>
 void MachineParts<Kind>::report_memory(StatsTree& stats) const {
   const auto cache = [&](const std::string& path, const auto& module) {
-    const CacheStats& counters = module.stats();
-    stats.add_counters(path, counters);
-    stats.add_ratio(path, CacheValues::hit_rate, counters.num_hits, counters.num_accesses);
-    for (std::size_t i = 0; i < kNumDataKinds; ++i) {
-      const auto kind = static_cast<DataKind>(i);
-      if (module.kind_stats(kind).num_accesses == 0) continue;
-      stats.add_counters(fmt::format("{}.{}", path, to_string(kind)), module.kind_stats(kind));
-    }
+    report_cache(path, module, stats);
   };
   for (std::size_t i = 0; i < traversal_units_.size(); ++i) {
     cache(fmt::format("system.traversal_unit{}.node_cache", i), traversal_units_[i]->cache());
@@ -130,27 +123,7 @@ void MachineParts<Kind>::report_memory(StatsTree& stats) const {
     if (texture != nullptr) cache(fmt::format("system.shader_unit{}.texture_cache", i), *texture);
   }
   cache("system.film.cache", film_->cache());
-  stats.add_counters("system.l2", l2_->stats());
-  stats.add_ratio("system.l2", CacheValues::hit_rate, l2_->stats().num_hits,
-                  l2_->stats().num_accesses);
-  if (l2_->request_crossbar()) {
-    stats.add_counters("system.crossbar.requests", l2_->request_crossbar()->stats());
-  }
-  if (l2_->response_crossbar()) {
-    stats.add_counters("system.crossbar.responses", l2_->response_crossbar()->stats());
-  }
-  for (std::size_t kind = 0; kind < kNumDataKinds; ++kind) {
-    if (static_cast<DataKind>(kind) == DataKind::kSpilledRay && !spill_) continue;
-    const std::string path = fmt::format("system.l2.{}", to_string(static_cast<DataKind>(kind)));
-    stats.add_counters(path, l2_->kind_stats(static_cast<DataKind>(kind)));
-  }
-  const DramStats dram = dram_->stats(end_);
-  stats.add_counters("system.dram", dram);
-  const auto rays = static_cast<double>(frame_.rays.total().retired);
-  stats.add_ratio("system.dram", MainMemoryValues::bytes_per_ray,
-                  static_cast<double>(dram.bytes_read + dram.bytes_written), rays);
-  stats.add_ratio("system.dram", MainMemoryValues::bus_utilization, dram.bus_busy_cycles, end_);
-  dram_->report_details("system.dram", end_, stats);
+  memory_->report(end_, frame_.rays.total().retired, spill_ != nullptr, stats);
 }
 
 template void MachineParts<TimedKind>::report(StatsTree& stats) const;

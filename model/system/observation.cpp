@@ -46,7 +46,7 @@ Observation Machine::observation(Cycles now) const {
     seen[accesses] += cache.num_accesses;
   };
   seen[kCycles] = now;
-  const DramStats dram = dram_->stats(now);
+  const DramStats dram = memory_->dram().stats(now);
   seen[kDramBytes] = dram.bytes_read + dram.bytes_written;
   for (const auto& unit : traversal_units_) {
     add_cache(unit->cache().stats(), kNodeHits, kNodeAccesses);
@@ -64,8 +64,8 @@ Observation Machine::observation(Cycles now) const {
     if (texels != nullptr) add_cache(texels->stats(), kTextureHits, kTextureAccesses);
   }
   add_cache(film_->cache().stats(), kFilmHits, kFilmAccesses);
-  seen[kL2Hits] = l2_->stats().num_hits;
-  seen[kL2Accesses] = l2_->stats().num_accesses;
+  seen[kL2Hits] = memory_->l2().stats().num_hits;
+  seen[kL2Accesses] = memory_->l2().stats().num_accesses;
   if (ray_cache_) {
     seen[kRayCacheHits] = ray_cache_->sorter().stats().num_hits;
     seen[kRayCacheInsertions] = ray_cache_->sorter().stats().num_insertions;
@@ -87,7 +87,7 @@ void Machine::load_caches(const TagHierarchy& tags) {
     if (texels != nullptr) texels->load(tags.array(Cache::kTexture, i));
   }
   film_->cache().load(tags.array(Cache::kFilm, 0));
-  l2_->load(tags.l2_banks());
+  memory_->l2().load(tags.l2_banks());
 }
 
 }  // namespace sheaf

@@ -61,6 +61,7 @@ bool ReplayMachine::run(const Monitor& monitor) {
   sc_core::sc_start();
   errors_.rethrow();
   end_ = domain_.latest() + 1;
+  memory_.dram().finish(end_);
   if (!domain_.ran_dry()) return false;
   if (!is_finished()) {
     throw Error(ExitCode::kTrace,
@@ -110,7 +111,7 @@ void ReplayMachine::report(StatsTree& stats) const {
                    stats);
     }
   }
-  memory_.report(end_, metadata_.num_rays, stats);
+  memory_.report(end_, metadata_.num_rays, false, stats);
 }
 
 }  // namespace sheaf

@@ -19,20 +19,6 @@ void ColumnWriter::bytes(ByteSpan values) {
   column([&] { out_.insert(out_.end(), values.begin(), values.end()); });
 }
 
-void ColumnWriter::varints(std::span<const std::uint64_t> values) {
-  constexpr std::size_t kMaxBytes = 10;
-  column([&] {
-    const std::size_t begin = out_.size();
-    out_.resize(begin + kMaxBytes * values.size());
-    std::uint8_t* next = out_.data() + begin;
-    for (std::uint64_t value : values) {
-      for (; value >= 0x80; value >>= 7) *next++ = static_cast<std::uint8_t>(value | 0x80);
-      *next++ = static_cast<std::uint8_t>(value);
-    }
-    out_.resize(static_cast<std::size_t>(next - out_.data()));
-  });
-}
-
 void ColumnWriter::words(std::span<const std::uint32_t> values) {
   column([&] {
     const std::size_t begin = out_.size();

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracefile/memory_block.h"
 
-#include <array>
-
-#include "tracefile/columns.h"
+#include <utility>
 
 namespace sheaf {
 namespace {
 
-constexpr std::size_t kMaxContexts = 64;
 // A record's code: the operation's number times eight, and these.
 constexpr std::uint64_t kBeginsFlag = 1;
 constexpr std::uint64_t kContinuesFlag = 2;
@@ -19,74 +16,63 @@ constexpr unsigned kFlagBits = 3;
 constexpr Address kMaxAddress = Address{1} << 56;
 constexpr Cycles kMaxCycle = Cycles{1} << 51;
 
-/// The last address of each context and kind of data, to which the next one is given.
-class LastAddresses {
- public:
-  Address& of(std::uint8_t context, DataKind kind) {
-    return last_[context][static_cast<std::size_t>(kind)];
-  }
-
- private:
-  std::array<std::array<Address, kNumDataKinds>, kMaxContexts> last_{};
-};
-
-/// Likewise the last cause in each stream.
-using LastCauses = std::vector<std::uint64_t>;
-
 }  // namespace
 
-void MemoryBlockWriter::encode(const MemoryBlock& block,
-                               const std::vector<MemoryOperation>& operations, ByteVector& raw) {
-  raw.clear();
-  const std::size_t count = block.records.size();
-  contexts_.resize(count);
-  cycles_.resize(count);
-  codes_.resize(count);
-  addresses_.clear();
-  LastAddresses last;
-  Cycles before = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const MemoryRecord& record = block.records[i];
+void MemoryBlockWriter::add(std::span<const MemoryRecord> records,
+                            const std::vector<MemoryOperation>& operations) {
+  const std::size_t count = records.size();
+  // Contexts are less than 128, so that these numbers are single bytes.
+  contexts_.put_all(count, [&](std::size_t i) { return std::uint64_t{records[i].context}; });
+  Cycles before = last_cycle_;
+  cycles_.put_all(count, [&](std::size_t i) {
+    return records[i].cycle - std::exchange(before, records[i].cycle);
+  });
+  last_cycle_ = before;
+  codes_.put_all(count, [&](std::size_t i) {
+    const MemoryRecord& record = records[i];
+    return std::uint64_t{record.operation} << kFlagBits | (record.begins ? kBeginsFlag : 0) |
+           (record.continues ? kContinuesFlag : 0) | (record.ends ? kEndsFlag : 0);
+  });
+  steps_.clear();
+  for (const MemoryRecord& record : records) {
     const MemoryOperation& operation = operations[record.operation];
-    contexts_[i] = record.context;
-    cycles_[i] = record.cycle - before;
-    before = record.cycle;
-    codes_[i] = std::uint64_t{record.operation} << kFlagBits | (record.begins ? kBeginsFlag : 0) |
-                (record.continues ? kContinuesFlag : 0) | (record.ends ? kEndsFlag : 0);
     if (operation.bytes == 0) continue;
-    Address& near = last.of(record.context, operation.kind);
-    addresses_.push_back(zigzag(static_cast<std::int64_t>(record.address - near)));
+    Address& near = last_addresses_.of(record.context, operation.kind);
+    steps_.push_back(zigzag(static_cast<std::int64_t>(record.address - near)));
     near = record.address;
   }
-  ColumnWriter columns(raw);
-  columns.bytes(contexts_);
-  columns.varints(cycles_);
-  columns.varints(codes_);
-  columns.varints(addresses_);
-  put_chains(block.chains, columns);
+  addresses_.put_all(steps_.size(), [&](std::size_t i) { return steps_[i]; });
+  num_records_ += static_cast<std::uint32_t>(count);
 }
 
-void MemoryBlockWriter::put_chains(const std::vector<ChainStart>& chains, ColumnWriter& columns) {
-  std::vector<std::uint64_t> streams;
-  std::vector<std::uint64_t> records;
-  std::vector<std::uint64_t> gaps;
-  std::vector<std::uint64_t> epochs;
-  LastCauses last(std::size_t{AccessCause::kAllEarlier} + 1);
-  std::uint64_t epoch = 0;
-  for (const ChainStart& chain : chains) {
-    const bool all = chain.cause_stream == AccessCause::kAllEarlier;
-    streams.push_back(all ? 0 : chain.cause_stream + std::uint64_t{1});
-    const std::uint64_t cause = chain.cause_record << 1 | (chain.cause_ended ? 1 : 0);
-    records.push_back(zigzag(static_cast<std::int64_t>(cause - last[chain.cause_stream])));
-    last[chain.cause_stream] = cause;
-    gaps.push_back(chain.gap);
-    epochs.push_back(chain.epoch - epoch);
-    epoch = chain.epoch;
+void MemoryBlockWriter::add(const ChainStart& chain) {
+  const bool all = chain.cause_stream == AccessCause::kAllEarlier;
+  const std::size_t stream = all ? 0 : chain.cause_stream + std::size_t{1};
+  cause_streams_.put(stream);
+  if (last_causes_.size() <= stream) last_causes_.resize(stream + 1);
+  const std::uint64_t cause = chain.cause_record << 1 | (chain.cause_ended ? 1 : 0);
+  cause_records_.put(zigzag(static_cast<std::int64_t>(cause - last_causes_[stream])));
+  last_causes_[stream] = cause;
+  gaps_.put(chain.gap);
+  epochs_.put(chain.epoch - last_epoch_);
+  last_epoch_ = chain.epoch;
+}
+
+ByteVector MemoryBlockWriter::take() {
+  NumberColumn* const in_order[] = {&contexts_,      &cycles_,        &codes_, &addresses_,
+                                    &cause_streams_, &cause_records_, &gaps_,  &epochs_};
+  ByteVector raw;
+  ColumnWriter columns(raw);
+  for (NumberColumn* column : in_order) {
+    columns.numbers(*column);
+    column->clear();
   }
-  columns.varints(streams);
-  columns.varints(records);
-  columns.varints(gaps);
-  columns.varints(epochs);
+  last_addresses_.clear();
+  last_causes_.clear();
+  last_cycle_ = 0;
+  last_epoch_ = 0;
+  num_records_ = 0;
+  return raw;
 }
 
 namespace {
@@ -161,7 +147,7 @@ void decode_chains(ColumnReader& columns, std::size_t count, std::size_t num_str
   columns.varints(count, records);
   columns.varints(count, gaps);
   columns.varints(count, epochs);
-  LastCauses last(num_streams + 1);
+  std::vector<std::uint64_t> last(num_streams + 1);  // by the column of streams
   std::uint64_t epoch = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (streams[i] > num_streams) throw BadColumn("a chain has a cause in no stream");

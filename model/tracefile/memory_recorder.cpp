@@ -46,10 +46,16 @@ AccessCause StreamRecorder::end(int context, Cycles now) {
   return ended;
 }
 
+void StreamRecorder::pack() {
+  block_.add({held_.data(), num_held_}, recorder_.layout_.operations);
+  num_held_ = 0;
+}
+
 void StreamRecorder::flush() {
-  if (block_.records.empty()) return;
-  recorder_.write(number_, num_records_ - block_.records.size(), block_);
-  block_.clear();
+  pack();
+  const std::uint32_t count = block_.num_records();
+  if (count == 0) return;
+  recorder_.writer_.add(memory_key(number_, num_records_ - count), count, block_.take());
 }
 
 StreamRecorder& MemoryRecorder::add_stream(const MemoryTraceStream& stream) {
@@ -64,11 +70,6 @@ StreamRecorder& MemoryRecorder::add_stream(const MemoryTraceStream& stream) {
 AccessCause MemoryRecorder::begin_epoch(Cycles now) {
   ++epoch_;
   return all_earlier(now);
-}
-
-void MemoryRecorder::write(std::uint16_t stream, std::uint64_t first, const MemoryBlock& block) {
-  blocks_.encode(block, layout_.operations, raw_);
-  writer_.add(memory_key(stream, first), static_cast<std::uint32_t>(block.records.size()), raw_);
 }
 
 void MemoryRecorder::flush() {

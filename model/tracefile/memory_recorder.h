@@ -52,19 +52,16 @@ class StreamRecorder {
 
   /// A step of one access, or of none; its first look-up. `last`: of its chain.
   void step(int context, std::uint32_t operation, Address address, bool last, Cycles now) {
-    if (block_.records.size() >= kBlockRecords) flush();
+    if (block_.num_records() + num_held_ >= kBlockRecords) flush();
     Context& state = contexts_[static_cast<std::size_t>(context)];
-    block_.records.push_back(
+    if (state.begins) block_.add(state.start);
+    add(context,
         {address, now, operation, static_cast<std::uint8_t>(context), state.begins, last, false});
-    if (state.begins) block_.chains.push_back(state.start);
     state.begins = false;
-    state.last = num_records_++;
   }
   /// One more access of the step before; of the same context and cycle.
   void also(int context, std::uint32_t operation, Address address, Cycles now) {
-    block_.records.push_back(
-        {address, now, operation, static_cast<std::uint8_t>(context), false, false, true});
-    contexts_[static_cast<std::size_t>(context)].last = num_records_++;
+    add(context, {address, now, operation, static_cast<std::uint8_t>(context), false, false, true});
   }
 
   /// The context's last step is done, and what comes of it sets out.
@@ -83,6 +80,7 @@ class StreamRecorder {
 
  private:
   static constexpr std::size_t kBlockRecords = std::size_t{1} << 16;
+  static constexpr std::size_t kHeldRecords = 64;  // all units' together stay in the first cache
   static constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
   struct Context {
     std::uint64_t last = 0;  ///< number of its last record
@@ -90,6 +88,12 @@ class StreamRecorder {
     bool begins = false;  ///< its next record begins a chain
     ChainStart start;     ///< of that chain
   };
+  void add(int context, const MemoryRecord& record) {
+    if (num_held_ == held_.size()) pack();
+    held_[num_held_++] = record;
+    contexts_[static_cast<std::size_t>(context)].last = num_records_++;
+  }
+  void pack();
   std::uint32_t learn(std::size_t key, const MemoryOperation& operation);
 
   MemoryRecorder& recorder_;
@@ -98,14 +102,16 @@ class StreamRecorder {
   const bool awaited_;
   Group& group_;
   std::array<Context, 64> contexts_{};
-  MemoryBlock block_;
+  std::array<MemoryRecord, kHeldRecords> held_;  ///< still to be packed
+  std::size_t num_held_ = 0;
+  MemoryBlockWriter block_;
   std::uint64_t num_records_ = 0;
   std::vector<std::uint32_t> known_;  ///< operations by the unit's key
 };
 
 /// Takes down a memory trace: every access of the units to their private caches, and what each had
-/// to wait for, so that it can be replayed on other caches and another memory. Holds 64 Ki records
-/// of each unit at most, whatever the length of the run.
+/// to wait for, so that it can be replayed on other caches and another memory. Holds 64 Ki packed
+/// records of each unit at most, whatever the length of the run.
 class MemoryRecorder {
  public:
   explicit MemoryRecorder(TraceWriter& writer) : writer_(writer) {}
@@ -139,7 +145,6 @@ class MemoryRecorder {
 
  private:
   friend class StreamRecorder;
-  void write(std::uint16_t stream, std::uint64_t first, const MemoryBlock& block);
 
   TraceWriter& writer_;
   MemoryLayout layout_;
@@ -149,8 +154,6 @@ class MemoryRecorder {
   Cycles last_end_ = 0;  ///< of the chains of awaited streams
   AccessCause last_retired_;
   std::deque<AccessCause> to_film_;
-  MemoryBlockWriter blocks_;
-  ByteVector raw_;
 };
 
 }  // namespace sheaf

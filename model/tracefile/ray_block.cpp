@@ -48,27 +48,27 @@ void encode_ray_block(const RayBlock& block, const BlockGrid& grid, ByteVector& 
   std::vector<std::uint8_t> flags;
   std::vector<std::uint8_t> depths;
   std::vector<std::uint64_t> ids;
-  std::vector<std::uint64_t> packets;
-  std::vector<std::uint64_t> counts;
+  NumberColumn packets;
+  NumberColumn counts;
   std::uint64_t last_packet = 0;
   for (const ShadedRay& ray : block.rays) {
     positions.push_back(grid.position_of(ray.tag.pixel));
     flags.push_back(flags_of(ray));
     depths.push_back(ray.tag.depth);
     if (ray.tag.kind != RayKind::kPrimary) ids.push_back(ray.tag.id);
-    packets.push_back(zigzag(static_cast<std::int64_t>(ray.packet - last_packet)));
+    packets.put(zigzag(static_cast<std::int64_t>(ray.packet - last_packet)));
     last_packet = ray.packet;
-    counts.push_back(ray.num_children);
+    counts.put(ray.num_children);
   }
   columns.bytes(positions);
   columns.bytes(flags);
   columns.bytes(depths);
   columns.longs(ids);
-  columns.varints(packets);
-  columns.varints(counts);
-  std::vector<std::uint64_t> slots;
-  for (const SpawnedRay& child : block.children) slots.push_back(child.slot);
-  columns.varints(slots);
+  columns.numbers(packets);
+  columns.numbers(counts);
+  NumberColumn slots;
+  for (const SpawnedRay& child : block.children) slots.put(child.slot);
+  columns.numbers(slots);
   std::vector<std::uint32_t> words(block.children.size());
   for (std::size_t i = 0; i < kNumWords; ++i) {
     for (std::size_t child = 0; child < words.size(); ++child) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace sheaf {
 namespace {
@@ -83,8 +84,9 @@ void RayRecorder::record(const RayPacket& packet, const PacketShading& shading) 
 void RayRecorder::write(std::uint64_t number, RayBlock& block) {
   if (block.rays.empty()) return;
   open_bytes_ -= block.num_bytes();
-  encode_ray_block(block, grid_, raw_);
-  writer_.add(number, static_cast<std::uint32_t>(block.rays.size()), raw_);
+  ByteVector raw;
+  encode_ray_block(block, grid_, raw);
+  writer_.add(number, static_cast<std::uint32_t>(block.rays.size()), std::move(raw));
   block.clear();
 }
 

@@ -41,7 +41,6 @@ class RayRecorder final : public ShadingSource {
   std::unordered_map<std::uint64_t, OpenBlock> open_;
   std::uint64_t num_packets_ = 0;
   std::size_t open_bytes_ = 0;
-  ByteVector raw_;
   std::vector<SpawnedRay> children_;  ///< of one packet, by lane, then by slot
   std::array<std::uint32_t, kMaxPacketSize + 1> first_child_{};  ///< by lane
 };

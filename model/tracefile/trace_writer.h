@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/bounded_queue.h"
 #include "tracefile/container.h"
 
 struct ZSTD_CCtx_s;
@@ -15,7 +19,8 @@ struct ZSTD_CCtx_s;
 namespace sheaf {
 
 /// Writes a trace frame by frame under a temporary name and renames it when it is whole. Keeps only
-/// the index in memory, 32 bytes a frame.
+/// the index in memory, 32 bytes a frame, and few frames that a thread of its own has yet to
+/// compress and write, in the order in which they come.
 ///
 /// Called from within a simulation, where exceptions have nowhere to go: a failure to write is
 /// remembered, what follows is dropped, and finish() throws. Poll failed() to stop early.
@@ -28,8 +33,9 @@ class TraceWriter {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  /// Compresses and writes one data frame; `raw` is at most kMaxFrameBytes.
-  void add(std::uint64_t key, std::uint32_t num_records, ByteSpan raw);
+  /// One data frame, to be compressed and written; `raw` is at most kMaxFrameBytes. Waits while
+  /// too many are.
+  void add(std::uint64_t key, std::uint32_t num_records, ByteVector raw);
 
   [[nodiscard]] bool failed() const { return error_ != 0; }
 
@@ -37,14 +43,22 @@ class TraceWriter {
   /// Throws Error(kOutput), with no file left, if anything could not be written.
   void finish(const std::string& metadata);
 
-  /// Bytes written so far.
-  [[nodiscard]] std::uint64_t num_bytes() const { return offset_; }
-
  private:
+  struct Frame {
+    FrameType type;
+    std::uint64_t key;
+    std::uint32_t num_records;
+    ByteVector raw;
+  };
+  void start_thread();
+  void write_queued();
   void write(ByteSpan bytes);
-  void add_frame(FrameType type, std::uint64_t key, std::uint32_t num_records, ByteSpan raw);
+  void write_frame(const Frame& frame);
   void close();
+  void remove_temporary();
   [[noreturn]] void refuse() const;
+
+  static constexpr std::size_t kMaxQueued = 4;
 
   std::filesystem::path path_;
   std::filesystem::path temporary_;
@@ -54,8 +68,12 @@ class TraceWriter {
   std::vector<TraceFrame> frames_;
   std::uint64_t offset_ = 0;
   std::uint64_t num_records_ = 0;
-  int error_ = 0;  ///< errno of the first failure
+  std::atomic<int> error_ = 0;  ///< errno of the first failure
   bool finished_ = false;
+
+  BoundedQueue<Frame> queue_{kMaxQueued};
+  std::exception_ptr thrown_;  ///< by the thread
+  std::thread thread_;         ///< while it runs, file and frames are its own
 };
 
 }  // namespace sheaf

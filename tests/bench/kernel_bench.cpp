@@ -116,7 +116,7 @@ class Medians : public benchmark::ConsoleReporter {
       if (rate != run.counters.end()) rates_[run.run_name.function_name] = rate->second;
     }
   }
-  /// A table of speeds as parts of Embree's.
+  /// A table of speeds as parts of Embree's; a dash for what was not asked for.
   void print_ratios() const {
     fmt::print("| scene | primary, masked | single | Embree robust | incoherent, masked | single ");
     fmt::print("| Embree robust |\n| --- | --- | --- | --- | --- | --- | --- |\n");
@@ -125,7 +125,11 @@ class Medians : public benchmark::ConsoleReporter {
       for (const char* rays : {"primary", "incoherent"}) {
         for (const char* kernel : {"masked", "single", "embree_robust"}) {
           const std::string name = fmt::format("{}/{}/", scene, rays);
-          fmt::print(" {:.2f} |", rates_.at(name + kernel) / rates_.at(name + "embree"));
+          const auto ours = rates_.find(name + kernel);
+          const auto embree = rates_.find(name + "embree");
+          const bool measured = ours != rates_.end() && embree != rates_.end();
+          fmt::print(" {} |",
+                     measured ? fmt::format("{:.2f}", ours->second / embree->second) : "-");
         }
       }
       fmt::print("\n");

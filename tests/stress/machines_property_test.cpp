@@ -1,44 +1,55 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-// Random machines: each finishes, conserves, and makes the picture and the rays of the untimed
-// pipeline. RapidCheck prints the seed of a failure and shrinks it towards small numbers.
-#include <fmt/format.h>
+// Random machines on random scenes: each finishes, conserves, and makes the picture and the rays of
+// the untimed pipeline.
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 
+#include "generators.h"
 #include "stability/covering_array.h"
 #include "stability/machine_run.h"
+#include "stability/shaded_mesh.h"
 
 namespace sheaf::stability {
 namespace {
 
-RC_GTEST_PROP(MachinesProperty, PictureAndRaysAreThoseOfTheUntimedPipeline, ()) {
-  static const MachineScene scene(1);
-  static const MachineRun untimed = scene.run({"run.fidelity=functional"});
-  std::vector<std::string> settings;
-  const auto add = [&](const char* key, int lowest, int highest) {
-    settings.push_back(fmt::format("{}={}", key, *rc::gen::inRange(lowest, highest + 1)));
-  };
-  for (const char* unit : {"traversal_unit", "intersection_unit", "shader_unit"}) {
-    add(fmt::format("{}.count", unit).c_str(), 1, 8);
-    add(fmt::format("{}.contexts", unit).c_str(), 1, 64);
-    add(fmt::format("{}.latency", unit).c_str(), 1, 1000);
-  }
-  add("ray_cache.cells", 1, 100);
-  add("ray_cache.timeout", 0, 1000);
-  add("packet_fifo.depth", 1, 100);
-  add("packet.size", 1, 64);
-  add("flow.tile_size", 8, 64);
-  add("link.latency", 1, 100);
-  add("link.depth", 1, 100);
-  settings.push_back(std::string("ray_cache.heuristic=") +
-                     *rc::gen::element("none", "dir", "mdir(24)", "fastpos", "pos(1)", "opos"));
-  const MachineRun run = scene.run(settings);
+void expect_like_untimed(const MachineScene& scene) {
+  const MachineRun untimed = scene.run({"run.fidelity=functional"});
+  const MachineRun run = scene.run(any_machine());
   RC_ASSERT(run.error.empty());
   RC_ASSERT(run.picture == untimed.picture);
   RC_ASSERT(run.rays == untimed.rays);
+}
+
+RC_GTEST_PROP(MachinesProperty, PictureAndRaysAreThoseOfTheUntimedPipeline, ()) {
+  static const MachineScene scene(1);
+  expect_like_untimed(scene);
+}
+
+/// Every mixture of mirror, glass and lamp, with none to two lights.
+Scene any_scene() {
+  Material material;
+  material.mirror_weight = 0.25F * static_cast<float>(*rc::gen::inRange(0, 5));
+  material.transmission = (1.0F - material.mirror_weight) * *rc::gen::element(0.0F, 0.5F, 1.0F);
+  material.diffuse_weight = 1.0F - material.mirror_weight - material.transmission;
+  material.emission = *rc::gen::element(Vec3(0.0F), Vec3(1.0F, 1e-30F, 1e30F));
+  Scene scene = scene_of(any_mesh(), material);
+  const int num_lights = *rc::gen::inRange(0, 3);
+  for (int i = 0; i < num_lights; ++i) {
+    Light light;
+    light.position = any_point();
+    light.intensity = Vec3(10.0F);
+    scene.lights.push_back(light);
+  }
+  scene.background = Vec3(0.3F, 0.4F, 0.5F);
+  return scene;
+}
+
+RC_GTEST_PROP(MachinesProperty, OnAnySceneTheSame, ()) {
+  const Scene scene = any_scene();
+  const auto level = static_cast<std::uint32_t>(*rc::gen::inRange(0, 4));
+  expect_like_untimed(MachineScene(scene, level));
 }
 
 /// Whether each pair of levels of any two factors stands in some row.

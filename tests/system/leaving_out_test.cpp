@@ -8,6 +8,7 @@
 
 #include "support/scenes.h"
 #include "support/scratch_folder.h"
+#include "support/sheaf_command.h"
 #include "support/simulate.h"
 #include "support/tiny_gltf.h"
 
@@ -54,6 +55,25 @@ TEST(LeavingOut, BouncesChangesNothingElse) {
 TEST(LeavingOut, LightsChangesNothingElse) {
   const ScratchFolder scratch;
   expect_nothing_else_changes(TinyGltf().write(scratch.path()), {"render.recursion_level=3"}, {});
+}
+
+TEST(LeavingOut, PicturesChangesNoCounter) {
+  const ScratchFolder scratch;
+  std::vector<std::string> run =
+      run_arguments(committed_scene("dragon"), scratch / "with", kSmallImage);
+  ASSERT_EQ(run_sheaf(run).exit_code, 0);
+  run = run_arguments(committed_scene("dragon"), scratch / "without", kSmallImage);
+  run.emplace_back("--no-images");
+  ASSERT_EQ(run_sheaf(run).exit_code, 0);
+  EXPECT_EQ(read_bytes(scratch / "with" / "stats.json"),
+            read_bytes(scratch / "without" / "stats.json"));
+  const auto has = [&](const char* folder, const char* file) {
+    return std::filesystem::exists(scratch / folder / file);
+  };
+  for (const char* picture : {"image.png", "image.exr", "heat_node_visits.png"}) {
+    EXPECT_TRUE(has("with", picture)) << picture;
+    EXPECT_FALSE(has("without", picture)) << picture;
+  }
 }
 
 TEST(LeavingOut, IsTheRuleForAShaderCacheThatIsNotAskedFor) {

@@ -12,6 +12,9 @@
 #include "support/scenes.h"
 #include "support/scratch_folder.h"
 #include "support/sheaf_command.h"
+#include "support/tiny_gltf.h"
+#include "tracefile/memory_stream.h"
+#include "tracefile/trace_metadata.h"
 
 namespace sheaf::test {
 namespace {
@@ -135,6 +138,39 @@ TEST_P(MemoryReplay, WorksForEveryKindOfMachine) {
 
 INSTANTIATE_TEST_SUITE_P(Committed, MemoryReplay, testing::Values("sponza", "oldtree"),
                          [](const auto& scene) { return std::string(scene.param); });
+
+/// Chains of the traversal units of a recorded run that waited for a shader to be done with others.
+std::size_t num_chains_behind_shaders(const std::filesystem::path& scene,
+                                      const Settings& settings) {
+  const ScratchFolder scratch;
+  const CommandResult result = run_sheaf(run_arguments(scene, scratch / "run", kSmall + settings) +
+                                         Settings{"--record", "memory"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  TraceReader reader(scratch / "run" / "memory.trace");
+  const MemoryLayout layout = read_metadata(reader).memory;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < layout.streams.size(); ++i) {
+    if (layout.streams[i].group != "traversal_unit") continue;
+    for (MemoryStream records(reader, layout, i); records.peek() != nullptr; records.pop()) {
+      if (!records.peek()->begins) continue;
+      const ChainStart& start = records.chain();
+      if (start.cause_stream == AccessCause::kAllEarlier) continue;
+      if (layout.streams[start.cause_stream].group == "shader_unit" && start.cause_ended) ++found;
+    }
+  }
+  return found;
+}
+
+// There are primary rays alone, so that nothing but their room lets a packet wait for a shader.
+TEST(MemoryTraceOfCredits, NamesTheRaysWhoseRoomAPacketTook) {
+  const ScratchFolder scratch;
+  const std::filesystem::path scene = TinyGltf().write(scratch.path());
+  const Settings primary{"render.recursion_level=0"};
+  EXPECT_EQ(num_chains_behind_shaders(scene, primary), 0U);
+  EXPECT_GT(num_chains_behind_shaders(
+                scene, primary + Settings{"flow.control=credits", "flow.credits=64"}),
+            20U);
+}
 
 class MemoryTrace : public MemoryReplay {};
 

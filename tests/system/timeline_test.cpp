@@ -234,6 +234,31 @@ TEST(Timeline, OfAPartialRunBalancesToo) {
   EXPECT_FALSE(slices(run.trace).empty());
 }
 
+TEST(Timeline, OfAReplayIsThatOfTheRecordedRun) {
+  const WatchedRun live({}, {"--record", "rays"});
+  const auto replayed = live.scratch / "replay";
+  const CommandResult result =
+      run_sheaf({"replay", (live.folder() / "rays.trace").string(), "--scene",
+                 committed_scene("dragon").string(), "--timeline", "--out", replayed.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(read_bytes(replayed / kFile) == read_bytes(live.folder() / kFile));
+}
+
+TEST(Timeline, IsRefusedForAReplayThatSimulatesNoUnits) {
+  const ScratchFolder scratch;
+  Words arguments =
+      run_arguments(committed_scene("dragon"), scratch / "run", WatchedRun::small({}));
+  arguments.insert(arguments.end(), {"--record", "memory"});
+  ASSERT_EQ(run_sheaf(arguments).exit_code, 0);
+  for (const Words& wrong : std::vector<Words>{{"--timeline"}, {"--timeline-every", "2"}}) {
+    Words replay{"replay", (scratch / "run" / "memory.trace").string(), "--out",
+                 (scratch / "out").string()};
+    replay.insert(replay.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(run_sheaf(replay).exit_code, 2) << wrong.front();
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+  }
+}
+
 TEST(Timeline, RefusesWhatCannotBe) {
   const ScratchFolder scratch;
   for (const Words& wrong :

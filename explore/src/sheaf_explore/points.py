@@ -9,11 +9,12 @@ import itertools
 import json
 import random
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 from sheaf_explore.errors import ExploreError
 from sheaf_explore.parameters import Parameters, Value
-from sheaf_explore.spec import Axis, Choice, Source, Spec
+from sheaf_explore.spec import Axis, Choice, Outputs, Source, Spec
 
 MAX_POINTS = 1_000_000
 ID_LENGTH = 20  # hexadecimal digits: 80 bits, no two of a million points alike
@@ -27,25 +28,40 @@ class Point:
     labels: dict[str, Value]
     settings: dict[str, Value]
     from_recording: bool = False  # replays rays that the sweep records of its scene
+    outputs: Outputs = field(default_factory=Outputs)
 
     @property
     def mode(self) -> str:
         """Whether the rays are traced live or replayed."""
         return "replayed" if self.from_recording or self.source.kind == "trace" else "live"
 
+    def output_options(self) -> list[str]:
+        """Options of the simulator for what is to be written; none if that is the usual."""
+        words = []
+        if not self.outputs.images and self.mode == "live":  # a replay makes no pictures
+            words.append("--no-images")
+        if self.outputs.timeline and self.settings.get("run.fidelity", "timed") == "timed":
+            words.append("--timeline")
+            if self.outputs.timeline_window:
+                words += ["--timeline-window", self.outputs.timeline_window]
+        return words
+
 
 def point_id(point: Point, parameters: Parameters, source_hash: str, binary_hash: str) -> str:
     """Names a point by the resolved configuration, what it simulates, and the simulator.
 
     A setting that repeats a default changes nothing, and neither does the way a value is written.
+    Files that it is to write beside the usual ones are part of it.
     """
     resolved = {**parameters.defaults, **point.settings}
-    identity = {
+    identity: dict[str, Any] = {
         "binary": binary_hash,
         "configuration": {key: resolved[key] for key in sorted(resolved)},
         "mode": point.mode,
         "source": source_hash,
     }
+    if written := point.output_options():
+        identity["outputs"] = written
     text = json.dumps(identity, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:ID_LENGTH]
 
@@ -78,7 +94,7 @@ def make_point(spec: Spec, source: Source, choices: Iterable[Choice]) -> Point:
     for axis, choice in zip(spec.axes, choices, strict=True):
         settings |= choice.settings
         labels[axis.name] = choice.label
-    return Point(source, labels, settings)
+    return Point(source, labels, settings, outputs=spec.outputs)
 
 
 def _product(spec: Spec) -> Iterator[tuple[Source, tuple[Choice, ...]]]:

@@ -11,6 +11,8 @@ FREQUENCY_UNITS = {"": 1.0, "Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "THz"
 DURATION_UNITS = {"": 1.0, "s": 1.0, "min": 60.0, "h": 3600.0}
 
 _QUANTITY = re.compile(r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?) ?([A-Za-z]*)", re.ASCII)
+_WINDOW = re.compile(r"(\d{0,18})\.\.(\d{0,18})", re.ASCII)
+_LAST = 10**18  # cycles
 
 
 def _split(text: str, units: dict[str, float] | dict[str, int]) -> tuple[str, float] | None:
@@ -36,6 +38,12 @@ def parse_duration(text: str) -> float | None:
     """Seconds, or None: "90s", "10min", "1.5h"."""
     parts = _split(text, DURATION_UNITS)
     return float(parts[0]) * parts[1] if parts else None
+
+
+def is_window(text: str) -> bool:
+    """Whether the text is FIRST..END with FIRST < END; either may be left out."""
+    match = _WINDOW.fullmatch(text)
+    return match is not None and int(match[1] or 0) < int(match[2] or _LAST)
 
 
 def format_bytes(count: int) -> str:

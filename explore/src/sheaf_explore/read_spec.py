@@ -11,7 +11,7 @@ from typing import Any, cast, NoReturn
 from sheaf_explore.conditions import Condition
 from sheaf_explore.errors import ExploreError
 from sheaf_explore.parameters import Parameters, Value
-from sheaf_explore.quantities import parse_bytes, parse_duration
+from sheaf_explore.quantities import is_window, parse_bytes, parse_duration
 from sheaf_explore.ranges import Continuum, parse_range
 from sheaf_explore.spec import (
     Axis,
@@ -19,6 +19,7 @@ from sheaf_explore.spec import (
     Fidelity,
     Limits,
     Optimize,
+    Outputs,
     Sample,
     Source,
     SourceKind,
@@ -33,6 +34,7 @@ MAX_SAMPLES = 1_000_000
 _TOP = {"name", "scenes", "traces", "set", "axis", "sample", "replay"} | {
     "drop",
     "limits",
+    "outputs",
     "measures",
     "optimize",
 }
@@ -288,6 +290,21 @@ class _Reader:
             self.fail(("limits", "retries"), "retries must be from 0 to 100")
         return Limits(seconds, memory, retries)
 
+    def outputs(self) -> Outputs:
+        place: Place = ("outputs",)
+        table = self.table("outputs", {"images", "timeline", "timeline_window"}) or {}
+        images = self.get(place, table, "images", bool, Outputs.images)
+        timeline = self.get(place, table, "timeline", bool, Outputs.timeline)
+        window = self.get(place, table, "timeline_window", str, Outputs.timeline_window)
+        if window and not timeline:
+            self.fail((*place, "timeline_window"), "there is no timeline; add timeline = true")
+        if window and not is_window(window):
+            self.fail(
+                (*place, "timeline_window"),
+                'give cycles as "FIRST..END" with FIRST < END, for example "10000..20000"',
+            )
+        return Outputs(images, timeline, window)
+
     def optimize(self, axes: tuple[Axis, ...]) -> Optimize | None:
         known = {"minimize", "maximize", "budget", "batch", "seed", "fidelity"}
         table = self.table("optimize", known)
@@ -342,6 +359,7 @@ class _Reader:
             drop=self.conditions(),
             replay=self.get((), self.document, "replay", bool, False),
             limits=self.limits(),
+            outputs=self.outputs(),
             measures=tuple(self.texts((), self.document, "measures")),
             optimize=self.optimize(axes),
         )

@@ -18,7 +18,6 @@ from sheaf_explore.store import Store, write_whole
 
 _PNG_SCALE = 2.0
 _SNIPPET = "window.vegaEmbed = vegaEmbed;"
-_TIMELINES = ("timeline*", "*.perfetto-trace", "*.pftrace")
 _MAX_ROWS = 5000  # of the table of points; the page stays quick, and all are in results.csv
 
 
@@ -57,12 +56,13 @@ def _number(value: Any) -> str:
 def _links(store: Store, point: str) -> list[tuple[str, str]]:
     """What a point's folder holds, by name and address relative to the report."""
     folder = store.folder / "points" / point
+    files = {"image": "image.png", "timeline": "timeline.perfetto-trace"}
     links = [("folder", f"../points/{point}/")]
-    if (folder / "image.png").exists():
-        links.append(("image", f"../points/{point}/image.png"))
-    for pattern in _TIMELINES:
-        links += [("timeline", f"../points/{point}/{p.name}") for p in sorted(folder.glob(pattern))]
-    return links
+    return links + [
+        (name, f"../points/{point}/{file}")
+        for name, file in files.items()
+        if (folder / file).exists()
+    ]
 
 
 def _rows(store: Store, table: Table, measures: list[str]) -> list[dict[str, Any]]:
@@ -88,13 +88,15 @@ def _page(store: Store, table: Table, plots: list[Plot], notes: list[str]) -> st
     interactive = [explorer(table), *plots]
     measures = measures_of(table)
     modes = table.frame["mode"].value_counts().to_dict()
+    rows = _rows(store, table, measures)
     return environment.from_string(template).render(
         table=table,
         plots=[(plot, spec_of(plot)) for plot in interactive],
         notes=notes,
         measures=measures,
         units=table.units,
-        rows=_rows(store, table, measures),
+        rows=rows,
+        timelines=any(name == "timeline" for row in rows for name, _ in row["links"]),
         replayed=int(modes.get("replayed", 0)),
         live=int(modes.get("live", 0)),
         missing=table.total - len(table.frame) - len(table.failures),

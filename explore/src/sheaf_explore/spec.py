@@ -61,6 +61,15 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class Outputs:
+    """What a point leaves behind beside its counters."""
+
+    images: bool = True
+    timeline: bool = False  # of the points that simulate time
+    timeline_window: str = ""  # cycles FIRST..END; empty: all
+
+
+@dataclass(frozen=True)
 class Fidelity:
     """One level of an optimization: settings that make runs cheaper, and share of the budget."""
 
@@ -95,5 +104,6 @@ class Spec:
     drop: tuple[Condition, ...] = ()
     replay: bool = False  # record each scene once and replay where that can serve
     limits: Limits = field(default_factory=Limits)
+    outputs: Outputs = field(default_factory=Outputs)
     measures: tuple[str, ...] = ()  # columns that the report shows first
     optimize: Optimize | None = None

@@ -41,8 +41,26 @@ def load_spec(path: Path, simulator: Simulator) -> Spec:
     if spec.replay and not simulator.records:
         line = line_of(spec.text, ("replay",))
         raise ExploreError(f"{path}:{line}: {simulator.path} cannot record and replay rays")
+    _check_outputs(spec, simulator)
     _check_values(spec, simulator)
     return spec
+
+
+def _check_outputs(spec: Spec, simulator: Simulator) -> None:
+    """A simulator that cannot leave out or write what the spec says is refused."""
+    replays = spec.replay or any(source.kind == "trace" for source in spec.sources)
+    needed = []
+    if not spec.outputs.images:
+        needed.append(("images", "run", "--no-images"))
+    if spec.outputs.timeline:
+        commands = ("run", "replay") if replays else ("run",)
+        needed += [("timeline", command, "--timeline") for command in commands]
+    for key, command, option in needed:
+        if option not in simulator.options(command):
+            line = line_of(spec.text, ("outputs", key))
+            raise ExploreError(
+                f"{spec.path}:{line}: {simulator.path} has no option {option} of `{command}`"
+            )
 
 
 def _check_values(spec: Spec, simulator: Simulator) -> None:
@@ -84,6 +102,9 @@ class Sweep:
 
     def arguments(self, point: Point) -> list[str]:
         """The command line of a point, without its folder."""
+        return [*self._simulating(point), *point.output_options()]
+
+    def _simulating(self, point: Point) -> list[str]:
         if not point.from_recording:
             return self.simulator.arguments(point.source, point.settings, self.cache)
         recording = self.recordings.entry(recorded_by(point))

@@ -25,7 +25,6 @@ BankTiming::BankTiming(const DramDevice& device)
   for (std::uint32_t i = 0; i < banks_.size(); ++i) {
     banks_[i].rank = i / banks_per_rank_;
     banks_[i].group = i / device.organization.banks;
-    groups_[banks_[i].group].rank = banks_[i].rank;
   }
 }
 

@@ -39,19 +39,21 @@ class BankTiming {
   [[nodiscard]] std::uint32_t num_groups() const {
     return static_cast<std::uint32_t>(groups_.size());
   }
-  [[nodiscard]] std::uint32_t rank_of(std::uint32_t group) const { return groups_[group].rank; }
   [[nodiscard]] std::uint32_t num_open(std::uint32_t rank) const { return ranks_[rank].num_open; }
 
-  /// What holds for all banks of a group (numbered through the channel): the group's own limits and
-  /// its rank's.
+  /// What holds for all banks of a rank, and what more for those of a group (numbered through the
+  /// channel).
+  [[nodiscard]] Cycles rank_activate_at(std::uint32_t rank) const {
+    return ranks_[rank].activate_at;
+  }
+  [[nodiscard]] Cycles rank_column_at(std::uint32_t rank, bool write) const {
+    return write ? ranks_[rank].write_at : ranks_[rank].read_at;
+  }
   [[nodiscard]] Cycles group_activate_at(std::uint32_t group) const {
-    return std::max(groups_[group].activate_at, ranks_[groups_[group].rank].activate_at);
+    return groups_[group].activate_at;
   }
-  [[nodiscard]] Cycles group_read_at(std::uint32_t group) const {
-    return std::max(groups_[group].read_at, ranks_[groups_[group].rank].read_at);
-  }
-  [[nodiscard]] Cycles group_write_at(std::uint32_t group) const {
-    return std::max(groups_[group].write_at, ranks_[groups_[group].rank].write_at);
+  [[nodiscard]] Cycles group_column_at(std::uint32_t group, bool write) const {
+    return write ? groups_[group].write_at : groups_[group].read_at;
   }
   /// When all banks of a rank may be closed together.
   [[nodiscard]] Cycles earliest_precharge_all(std::uint32_t rank) const;
@@ -74,7 +76,6 @@ class BankTiming {
  private:
   struct Group {
     Cycles activate_at = 0, read_at = 0, write_at = 0;
-    std::uint32_t rank = 0;
   };
   struct Rank {
     Cycles activate_at = 0;  ///< tRRD_S, tFAW

@@ -32,26 +32,27 @@ DramChannel::DramChannel(const DramDevice& device)
 void DramChannel::advance(Cycles until, std::vector<DramDone>& done) {
   while (!(until == kNever && is_idle())) {
     const Cycles acceptance = next_acceptance();
-    skip_idle_refreshes(std::min(until, acceptance));
+    if (num_queued() == 0) skip_idle_refreshes(std::min(until, acceptance));
     if (std::min(choose().at, acceptance) >= until) return;
-    step(done);
+    step(acceptance, done);
   }
 }
 
 void DramChannel::relieve(std::size_t waiting, std::vector<DramDone>& done) {
   while (input_.size() > waiting) {
-    skip_idle_refreshes(next_acceptance());
-    step(done);
+    const Cycles acceptance = next_acceptance();
+    if (num_queued() == 0) skip_idle_refreshes(acceptance);
+    step(acceptance, done);
   }
 }
 
-// Refreshes are all that happens between requests that are far apart, a thousand a millisecond: too
-// many to go through one by one beside a core of 1 MHz. Does at once all but the last few before
-// `until`, as they would have been done. Not while someone watches every command.
+// With empty queues. Refreshes are all that happens between requests that are far apart, a thousand
+// a millisecond: too many to go through one by one beside a core of 1 MHz. Does at once all but the
+// last few before `until`, as they would have been done. Not while someone watches every command.
 void DramChannel::skip_idle_refreshes(Cycles until) {
   const Cycles period = device_.timing.tREFI;
   const std::size_t ranks = refresh_at_.size();
-  if (!device_.refresh || watcher_ || num_queued() != 0 || until == kNever) return;
+  if (!device_.refresh || watcher_ || until == kNever) return;
   if (device_.timing.tRFC > period || period < 2 * ranks) return;  // else they hinder each other
   for (std::uint32_t rank = 0; rank < ranks; ++rank) {
     const Cycles due = refresh_at_[rank];
@@ -77,8 +78,7 @@ void DramChannel::skip_idle_refreshes(Cycles until) {
 }
 
 // The next command or acceptance.
-void DramChannel::step(std::vector<DramDone>& done) {
-  const Cycles acceptance = next_acceptance();
+void DramChannel::step(Cycles acceptance, std::vector<DramDone>& done) {
   const Choice& choice = choose();
   // A request goes into the queue before a command for which it may be considered.
   if (acceptance != kNever && acceptance + device_.controller_latency <= choice.at) {

@@ -66,7 +66,7 @@ class DramChannel {
   using Choice = DramScheduler::Choice;
   [[nodiscard]] const Choice& choose();
   void consider_refreshes(Choice& best) const;
-  void step(std::vector<DramDone>& done);
+  void step(Cycles acceptance, std::vector<DramDone>& done);
   void skip_idle_refreshes(Cycles until);
   [[nodiscard]] Cycles next_acceptance() const;
   void accept(Cycles now, std::vector<DramDone>& done);

@@ -42,7 +42,7 @@ class BankLists {
   }
 
   [[nodiscard]] bool full() const { return free_.empty(); }
-  [[nodiscard]] std::size_t size() const { return entries_.size() - free_.size(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] Index oldest(std::uint32_t bank) const { return heads_[bank]; }
   [[nodiscard]] Entry& operator[](Index index) { return entries_[index]; }
   [[nodiscard]] const Entry& operator[](Index index) const { return entries_[index]; }
@@ -70,6 +70,7 @@ class BankLists {
   void push(const DramRequest& request, Cycles now, std::uint64_t age) {
     const Index i = free_.back();
     free_.pop_back();
+    ++size_;
     const Index tail = tails_[request.bank];
     entries_[i] = {request, now, age, request.bursts, false, kNone, tail};
     (tail == kNone ? heads_[request.bank] : entries_[tail].next) = i;
@@ -83,12 +84,14 @@ class BankLists {
     (entry.next == kNone ? tails_[bank] : entries_[entry.next].previous) = entry.previous;
     if (heads_[bank] == kNone) busy_banks_ &= ~(std::uint64_t{1} << bank);
     free_.push_back(i);
+    --size_;
   }
 
  private:
   std::vector<Index> heads_, tails_;
   std::vector<Entry> entries_;
   std::vector<Index> free_;
+  std::size_t size_ = 0;
   std::uint64_t busy_banks_ = 0;
 };
 

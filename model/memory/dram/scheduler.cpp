@@ -48,31 +48,25 @@ void DramScheduler::renew(std::uint32_t index) {
   }
   ready = std::max(ready, requests[entry].accepted + device_.controller_latency);
   candidates_.ready[index] = 2 * ready + (kind == kColumn ? 0 : 1);
-  candidates_.age[index] = requests[entry].age;
-  candidates_.limit[index] = kind * num_groups_ + bank.group;
+  candidates_.age_and_bank[index] = requests[entry].age * kMostBanks + index;
+  candidates_.limit[index] = kind * num_groups_ + (kind == kPrecharge ? 0 : bank.group);
   candidates_.entry[index] = entry;
 }
 
 void DramScheduler::set_limits(const Buses& buses) {
   std::uint64_t* const column = from_.data() + kColumn * num_groups_;
   std::uint64_t* const activate = from_.data() + kActivate * num_groups_;
-  std::uint64_t* const precharge = from_.data() + kPrecharge * num_groups_;
-  for (std::uint32_t group = 0; group < num_groups_; ++group) {
-    const Cycles data = writing_ ? banks_.group_write_at(group) : banks_.group_read_at(group);
-    column[group] = 2 * std::max(data, buses.column);
-    activate[group] = 2 * std::max(banks_.group_activate_at(group), buses.row) + 1;
-    precharge[group] = 2 * buses.row + 1;
+  const std::uint32_t groups_per_rank = device_.organization.bank_groups;
+  std::uint32_t group = 0;
+  for (std::uint32_t rank = 0; group < num_groups_; ++rank) {
+    const Cycles column_at = std::max(banks_.rank_column_at(rank, writing_), buses.column);
+    const Cycles activate_at = std::max(banks_.rank_activate_at(rank), buses.row);
+    for (const std::uint32_t end = group + groups_per_rank; group < end; ++group) {
+      column[group] = 2 * std::max(banks_.group_column_at(group, writing_), column_at);
+      activate[group] = 2 * std::max(banks_.group_activate_at(group), activate_at) + 1;
+    }
   }
-}
-
-// Of the candidates of these banks.
-std::uint32_t DramScheduler::oldest_of(std::uint64_t banks) const {
-  auto oldest = static_cast<std::uint32_t>(std::countr_zero(banks));
-  while ((banks &= banks - 1) != 0) {
-    const auto bank = static_cast<std::uint32_t>(std::countr_zero(banks));
-    if (candidates_.age[bank] < candidates_.age[oldest]) oldest = bank;
-  }
-  return oldest;
+  from_[kPrecharge * num_groups_] = 2 * buses.row + 1;
 }
 
 DramScheduler::Choice DramScheduler::choose(const Buses& buses) {
@@ -82,28 +76,24 @@ DramScheduler::Choice DramScheduler::choose(const Buses& buses) {
   }
   set_limits(buses);
   for (std::uint64_t banks = queue().busy_banks(); banks != 0;) {
-    std::uint64_t best = 0;
-    const std::uint32_t bank = oldest_of(earliest_of(banks, best));
-    if (is_allowed(bank, best)) return choice_of(bank, best);
+    const Order first = first_of(banks);
+    const auto order = static_cast<std::uint64_t>(first >> 64);
+    const auto bank = static_cast<std::uint32_t>(first % kMostBanks);
+    if (is_allowed(bank, order)) return choice_of(bank, order);
     banks &= ~banks_of_rank(banks_.bank(bank).rank);
   }
   return {};
 }
 
-// Those of these banks whose candidates may go first, and when. Which one is better is as good as
-// random, so that a branch on it would be slow.
-std::uint64_t DramScheduler::earliest_of(std::uint64_t banks, std::uint64_t& best) const {
-  std::uint64_t earliest = 0;
-  best = ~std::uint64_t{0};
+// Of the candidates of these banks. Which of two is better is as good as random, so that a branch
+// on it would be slow.
+DramScheduler::Order DramScheduler::first_of(std::uint64_t banks) const {
+  Order first = ~Order{0};
   for (; banks != 0; banks &= banks - 1) {
     const auto bank = static_cast<std::uint32_t>(std::countr_zero(banks));
-    const std::uint64_t order = order_of(bank);
-    const std::uint64_t no_later = 0 - std::uint64_t{order <= best};
-    const std::uint64_t no_earlier = 0 - std::uint64_t{order >= best};
-    earliest = (earliest & no_earlier) | (banks & -banks & no_later);
-    best = std::min(best, order);
+    first = std::min(first, Order{order_of(bank)} << 64 | candidates_.age_and_bank[bank]);
   }
-  return earliest;
+  return first;
 }
 
 bool DramScheduler::remains_best(const Choice& choice, const DramRequest& joined) {

@@ -61,12 +61,14 @@ class DramScheduler {
   static constexpr std::uint32_t kNumKinds = 3;
   static constexpr std::uint32_t kMostBanks = 64;
 
-  // Twice the time, plus one for a row command, orders by time and then by kind. Kept apart by what
-  // the choice looks at, so that it runs over banks without a branch.
+  // Twice the time, plus one for a row command, orders by time and then by kind; with the age
+  // behind it the lowest is the one to be issued. Kept apart by what the choice looks at, so that
+  // it runs over banks without a branch.
+  __extension__ using Order = unsigned __int128;
   struct Candidates {
     std::array<std::uint64_t, kMostBanks> ready;  ///< as far as bank and request go
-    std::array<std::uint64_t, kMostBanks> age;
-    std::array<std::uint32_t, kMostBanks> limit;  ///< kind x groups + group
+    std::array<std::uint64_t, kMostBanks> age_and_bank;
+    std::array<std::uint32_t, kMostBanks> limit;  ///< index into from_
     std::array<BankLists::Index, kMostBanks> entry;
   };
   void choose_direction();
@@ -82,8 +84,7 @@ class DramScheduler {
     const std::uint32_t banks = device_.organization.banks_per_rank();
     return all_banks_ >> (num_banks_ - banks) << (rank * banks);
   }
-  [[nodiscard]] std::uint64_t earliest_of(std::uint64_t banks, std::uint64_t& best) const;
-  [[nodiscard]] std::uint32_t oldest_of(std::uint64_t banks) const;
+  [[nodiscard]] Order first_of(std::uint64_t banks) const;
   [[nodiscard]] Choice choice_of(std::uint32_t bank, std::uint64_t order) const;
   [[nodiscard]] const BankLists& queue() const { return writing_ ? writes_ : reads_; }
 
@@ -94,8 +95,8 @@ class DramScheduler {
   const std::uint32_t num_banks_, num_groups_;
   Candidates candidates_{};               ///< of banks with requests
   std::vector<std::uint32_t> overtaken_;  ///< a bank: row hits that went before an older request
-  std::array<std::uint64_t, kNumKinds * kMostBanks>
-      from_{};  ///< a kind, a group: for all its banks
+  /// A kind, a group: for all its banks; kPrecharge: for all banks.
+  std::array<std::uint64_t, kNumKinds * kMostBanks> from_{};
   std::vector<Cycles> refresh_at_;
   const std::uint64_t all_banks_;
   std::uint64_t stale_ = 0;  ///< bit i: bank i or its requests have changed

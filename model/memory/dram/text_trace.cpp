@@ -23,13 +23,15 @@ constexpr std::size_t kLongestLine = 256;
 // Far beyond any run, and far enough below 2^64 that no sum of times wraps.
 constexpr Cycles kLastArrival = Cycles{1} << 60;
 
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
 std::string_view next_word(std::string_view& line) {
-  const std::size_t begin = line.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
+  const auto begin = std::find_if_not(line.begin(), line.end(), is_blank);
+  const auto end = std::find_if(begin, line.end(), is_blank);
+  line = {end, line.end()};
+  return {begin, end};
 }
 
 template <typename Number>
@@ -140,8 +142,8 @@ void TextTrace::parse(std::string_view line, TraceAccess& access) const {
 bool TextTrace::next(TraceAccess& access) {
   std::string_view line;
   while (next_line(line)) {
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string_view::npos || line[first] == '#') continue;
+    const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
+    if (first == line.end() || *first == '#') continue;
     parse(line, access);
     last_arrival_ = access.arrival;
     return true;

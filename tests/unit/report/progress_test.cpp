@@ -4,9 +4,10 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <limits>
@@ -48,6 +49,8 @@ TEST(Progress, ALogStaysClean) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+constexpr int kSettledMilliseconds = 200;
+
 /// What `run` writes to standard error while that is a terminal.
 template <typename Run>
 std::string written_to_terminal(Run run) {
@@ -58,10 +61,18 @@ std::string written_to_terminal(Run run) {
   dup2(inside, STDERR_FILENO);
   run();
   dup2(usual_stderr, STDERR_FILENO);
+  tcdrain(inside);
+  std::string written;
   std::array<char, 1000> buffer{};
-  const auto length = read(terminal, buffer.data(), buffer.size());
+  pollfd readable{terminal, POLLIN, 0};
+  // A terminal hands on what was written in parts, and some time later.
+  while (poll(&readable, 1, kSettledMilliseconds) > 0 && (readable.revents & POLLIN) != 0) {
+    const auto length = read(terminal, buffer.data(), buffer.size());
+    if (length <= 0) break;
+    written.append(buffer.data(), static_cast<std::size_t>(length));
+  }
   for (const int file : {terminal, inside, usual_stderr}) close(file);
-  return {buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
+  return written;
 }
 
 TEST(Progress, ATerminalShowsTheLineAndLosesItAtTheEnd) {

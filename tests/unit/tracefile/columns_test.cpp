@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
 
+NumberColumn column_of(const std::vector<std::uint64_t>& values) {
+  NumberColumn column;
+  for (const std::uint64_t value : values) column.put(value);
+  return column;
+}
+
 TEST(Columns, GiveBackWhatWasWritten) {
   const std::vector<std::uint8_t> bytes{0, 255, 7};
   const std::vector<std::uint64_t> numbers{0, 127, 128, 16383, 16384, kMax};
@@ -19,7 +25,7 @@ TEST(Columns, GiveBackWhatWasWritten) {
   ByteVector raw;
   ColumnWriter writer(raw);
   writer.bytes(bytes);
-  writer.varints(numbers);
+  writer.numbers(column_of(numbers));
   writer.words(words);
   writer.longs(longs);
 
@@ -42,9 +48,26 @@ TEST(Columns, GiveBackWhatWasWritten) {
 TEST(Columns, StandLowestByteFirstAndInPlanes) {
   ByteVector raw;
   ColumnWriter writer(raw);
-  writer.varints(std::vector<std::uint64_t>{300});
+  writer.numbers(column_of({300}));
   writer.words(std::vector<std::uint32_t>{0x04030201, 0x04030201});
   EXPECT_EQ(raw, (ByteVector{2, 0, 0, 0, 0xAC, 0x02, 8, 0, 0, 0, 1, 0, 2, 0, 3, 0, 4, 0}));
+}
+
+// Each length, and both sides of each border between two.
+TEST(Columns, NumbersHaveSevenBitsAByte) {
+  for (int bits = 0; bits < 64; ++bits) {
+    for (const std::uint64_t value : {std::uint64_t{1} << bits, (std::uint64_t{1} << bits) - 1}) {
+      ByteVector expected;
+      std::uint64_t rest = value;
+      for (; rest >= 0x80; rest >>= 7) {
+        expected.push_back(static_cast<std::uint8_t>(rest % 0x80 + 0x80));
+      }
+      expected.push_back(static_cast<std::uint8_t>(rest));
+      const NumberColumn column = column_of({value});
+      const ByteSpan found = column.bytes();
+      EXPECT_EQ(ByteVector(found.begin(), found.end()), expected) << value;
+    }
+  }
 }
 
 TEST(Columns, ZigzagIsItsOwnInverseAtTheEnds) {

@@ -16,6 +16,13 @@
 namespace sheaf {
 namespace {
 
+ByteVector noise() {
+  Random random(1);
+  ByteVector bytes(40000);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.next());
+  return bytes;
+}
+
 class FullDisk : public testing::TestWithParam<rlim_t> {
  protected:
   void SetUp() override {
@@ -30,12 +37,9 @@ class FullDisk : public testing::TestWithParam<rlim_t> {
 
 TEST_P(FullDisk, EndsInAnErrorAndLeavesNothing) {
   const test::ScratchFolder scratch;
-  Random random(1);
-  ByteVector noise(40000);
-  for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random.next());
   {
     TraceWriter writer(scratch / "full.trace", {});
-    for (int i = 0; i < 5; ++i) writer.add(0, 1, noise);
+    for (int i = 0; i < 5; ++i) writer.add(0, 1, noise());
     try {
       writer.finish("{}");
       FAIL() << "a trace that did not fit was called whole";
@@ -44,6 +48,18 @@ TEST_P(FullDisk, EndsInAnErrorAndLeavesNothing) {
       EXPECT_NE(std::string(error.what()).find("no trace is left"), std::string::npos);
     }
     EXPECT_TRUE(writer.failed());
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+}
+
+// Far more frames than may wait to be written.
+TEST_P(FullDisk, KeepsNobodyWaiting) {
+  const test::ScratchFolder scratch;
+  {
+    TraceWriter writer(scratch / "full.trace", {});
+    for (int i = 0; i < 100; ++i) writer.add(0, 1, noise());
+    EXPECT_TRUE(writer.failed()) << "the run would have gone on to its end for nothing";
+    EXPECT_THROW(writer.finish("{}"), Error);
   }
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
 }
