@@ -43,6 +43,7 @@ Cycles IntersectionUnit::accept_inputs(Cycles now) {
     contexts_[static_cast<std::size_t>(number)] = {job, 0, Phase::kList};
     if (recorder_ != nullptr) record_begin(number, now);
     schedule(number, now);
+    look_again();  // its credit may let the next one come
   }
   // Jobs that have arrived but find no context wait until ready() frees one.
   const Cycles next_job = has_free_context() ? jobs_.next_arrival() : kNever;

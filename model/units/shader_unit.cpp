@@ -58,7 +58,10 @@ Cycles ShaderUnit::accept_inputs(Cycles now) {
     next = std::min(next, in_texture_lines->next_arrival());
   }
   RayPacket* packet = nullptr;
-  while (has_free_context() && packets_.read(packet, now)) accept_packet(packet, now);
+  while (has_free_context() && packets_.read(packet, now)) {
+    accept_packet(packet, now);
+    look_again();  // its credit may let the next one come
+  }
   return has_free_context() ? std::min(next, packets_.next_arrival()) : next;
 }
 

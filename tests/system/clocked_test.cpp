@@ -74,7 +74,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Settings{"link.depth=1", "link.latency=1", "link.memory_latency=1"},
                     Settings{"link.depth=1", "packet_fifo.depth=1", "flow.control=credits"},
                     Settings{"link.latency=1"}, Settings{"link.memory_latency=1"},
-                    Settings{"link.latency=30", "link.depth=3", "link.memory_width=1"}));
+                    Settings{"link.latency=30", "link.depth=3", "link.memory_width=1"},
+                    Settings{"link.latency=10", "link.depth=1", "traversal_unit.count=1",
+                             "traversal_unit.contexts=4", "intersection_unit.count=1",
+                             "intersection_unit.initiation_interval=10", "node_cache.mode=perfect",
+                             "triangle_cache.mode=perfect"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Units, ClockedMachines,
