@@ -233,7 +233,7 @@ bool ClockedMachine::run(const Monitor& monitor) {
 
 // Nothing is on its way, and no unit works at anything.
 bool ClockedMachine::is_still(Cycles now) const {
-  bool moving = !memory_->l2().is_idle() || (ray_cache_ && ray_cache_->will_time_out());
+  bool moving = memory_->l2().is_moving() || (ray_cache_ && ray_cache_->will_time_out());
   for (const auto* unit : units_) moving |= unit->stalls().cause() == StallCause::kBusy;
   links_.for_each([&](const auto& link) { moving |= link.is_moving(now); });
   memory_->for_each_link([&](const auto& link) { moving |= link.is_moving(now); });

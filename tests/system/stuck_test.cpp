@@ -56,7 +56,13 @@ INSTANTIATE_TEST_SUITE_P(
                   [](Config& c) { c.attribute_cache.mshrs = 0; },
                   {"shader_unit0"}},
             Fault{"film_cache", [](Config& c) { c.film_cache.mshrs = 0; }, {"film"}},
-            Fault{"l2", [](Config& c) { c.l2.mshrs = 0; }, {"l2", "traversal_unit0"}}),
+            Fault{"l2", [](Config& c) { c.l2.mshrs = 0; }, {"l2", "traversal_unit0"}},
+            Fault{"l2_crossbar",
+                  [](Config& c) {
+                    c.l2.mshrs = 0;
+                    c.crossbar = {.request_width = 1, .response_width = 1, .depth = 1};
+                  },
+                  {"l2", "traversal_unit0"}}),
         testing::Values(Fidelity::kTimed, Fidelity::kClocked)),
     [](const auto& machine) {
       const bool clocked = std::get<Fidelity>(machine.param) == Fidelity::kClocked;

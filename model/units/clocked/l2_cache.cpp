@@ -240,4 +240,17 @@ bool L2Cache::is_idle() const {
                      [](const Link<LineRequest>* requests) { return requests->size() == 0; });
 }
 
+// A bank whose first request waits while nothing is under way waits for ever, and so does what
+// stands in the crossbar for it.
+bool L2Cache::is_moving() const {
+  const auto awaits = [](const Bank& bank) { return !bank.mshrs.empty() || bank.writes_out != 0; };
+  const bool stuck =
+      std::ranges::any_of(banks_, [&](const Bank& bank) { return bank.blocked && !awaits(bank); });
+  const bool crosses = (request_crossbar_ && !request_crossbar_->is_empty() && !stuck) ||
+                       (response_crossbar_ && !response_crossbar_->is_empty());
+  return crosses || answered_.size() != 0 || std::ranges::any_of(banks_, [&](const Bank& bank) {
+           return awaits(bank) || (!bank.queue.empty() && !bank.blocked);
+         });
+}
+
 }  // namespace sheaf::clocked

@@ -51,8 +51,10 @@ class L2Cache {
   [[nodiscard]] const std::optional<ResponseCrossbar>& response_crossbar() const {
     return response_crossbar_;
   }
-  /// Nothing queued, nothing outstanding; else it will go on by itself.
+  /// Nothing queued, nothing outstanding.
   [[nodiscard]] bool is_idle() const;
+  /// Whether it will go on by itself.
+  [[nodiscard]] bool is_moving() const;
 
  private:
   struct Request {
