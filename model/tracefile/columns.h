@@ -16,24 +16,13 @@ namespace sheaf {
 class NumberColumn {
  public:
   void put(std::uint64_t value) {
-    put_all(1, [value](std::size_t /*i*/) { return value; });
-  }
-  /// value_of(0) to value_of(count - 1).
-  template <typename ValueOf>
-  void put_all(std::size_t count, const ValueOf& value_of) {
-    const std::size_t most = kMaxBytes * count;
-    if (bytes_.size() - size_ < most) bytes_.resize(2 * bytes_.size() + most);
+    if (bytes_.size() - size_ < kMaxBytes) bytes_.resize(2 * bytes_.size() + kMaxBytes);
     std::uint8_t* next = bytes_.data() + size_;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::uint64_t value = value_of(i);
-      for (; value >= 0x80; value >>= 7) *next++ = static_cast<std::uint8_t>(value | 0x80);
-      *next++ = static_cast<std::uint8_t>(value);
-    }
+    for (; value >= 0x80; value >>= 7) *next++ = static_cast<std::uint8_t>(value | 0x80);
+    *next++ = static_cast<std::uint8_t>(value);
     size_ = static_cast<std::size_t>(next - bytes_.data());
   }
   [[nodiscard]] ByteSpan bytes() const { return {bytes_.data(), size_}; }
-  /// The memory is kept.
-  void clear() { size_ = 0; }
 
  private:
   static constexpr std::size_t kMaxBytes = 10;  ///< of 64 bits, seven in each

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracefile/memory_block.h"
 
+#include <array>
 #include <utility>
+
+#include "tracefile/columns.h"
 
 namespace sheaf {
 namespace {
@@ -16,62 +19,65 @@ constexpr unsigned kFlagBits = 3;
 constexpr Address kMaxAddress = Address{1} << 56;
 constexpr Cycles kMaxCycle = Cycles{1} << 51;
 
-}  // namespace
+constexpr std::size_t kMaxContexts = 64;
 
-void MemoryBlockWriter::add(std::span<const MemoryRecord> records,
-                            const std::vector<MemoryOperation>& operations) {
-  const std::size_t count = records.size();
-  // Contexts are less than 128, so that these numbers are single bytes.
-  contexts_.put_all(count, [&](std::size_t i) { return std::uint64_t{records[i].context}; });
-  Cycles before = last_cycle_;
-  cycles_.put_all(count, [&](std::size_t i) {
-    return records[i].cycle - std::exchange(before, records[i].cycle);
-  });
-  last_cycle_ = before;
-  codes_.put_all(count, [&](std::size_t i) {
-    const MemoryRecord& record = records[i];
-    return std::uint64_t{record.operation} << kFlagBits | (record.begins ? kBeginsFlag : 0) |
-           (record.continues ? kContinuesFlag : 0) | (record.ends ? kEndsFlag : 0);
-  });
-  steps_.clear();
+/// The last address of each context and kind of data, to which the next one is given.
+class LastAddresses {
+ public:
+  Address& of(std::uint8_t context, DataKind kind) {
+    return last_[context][static_cast<std::size_t>(kind)];
+  }
+
+ private:
+  std::array<std::array<Address, kNumDataKinds>, kMaxContexts> last_{};
+};
+
+void put_records(const std::vector<MemoryRecord>& records,
+                 const std::vector<MemoryOperation>& operations, ColumnWriter& columns) {
+  NumberColumn contexts, cycles, codes, addresses;
+  LastAddresses last;
+  Cycles before = 0;
   for (const MemoryRecord& record : records) {
+    contexts.put(record.context);  // less than 128, and so a byte
+    cycles.put(record.cycle - std::exchange(before, record.cycle));
+    codes.put(std::uint64_t{record.operation} << kFlagBits | (record.begins ? kBeginsFlag : 0) |
+              (record.continues ? kContinuesFlag : 0) | (record.ends ? kEndsFlag : 0));
     const MemoryOperation& operation = operations[record.operation];
     if (operation.bytes == 0) continue;
-    Address& near = last_addresses_.of(record.context, operation.kind);
-    steps_.push_back(zigzag(static_cast<std::int64_t>(record.address - near)));
+    Address& near = last.of(record.context, operation.kind);
+    addresses.put(zigzag(static_cast<std::int64_t>(record.address - near)));
     near = record.address;
   }
-  addresses_.put_all(steps_.size(), [&](std::size_t i) { return steps_[i]; });
-  num_records_ += static_cast<std::uint32_t>(count);
+  for (const NumberColumn* column : {&contexts, &cycles, &codes, &addresses}) {
+    columns.numbers(*column);
+  }
 }
 
-void MemoryBlockWriter::add(const ChainStart& chain) {
-  const bool all = chain.cause_stream == AccessCause::kAllEarlier;
-  const std::size_t stream = all ? 0 : chain.cause_stream + std::size_t{1};
-  cause_streams_.put(stream);
-  if (last_causes_.size() <= stream) last_causes_.resize(stream + 1);
-  const std::uint64_t cause = chain.cause_record << 1 | (chain.cause_ended ? 1 : 0);
-  cause_records_.put(zigzag(static_cast<std::int64_t>(cause - last_causes_[stream])));
-  last_causes_[stream] = cause;
-  gaps_.put(chain.gap);
-  epochs_.put(chain.epoch - last_epoch_);
-  last_epoch_ = chain.epoch;
+void put_chains(const std::vector<ChainStart>& chains, ColumnWriter& columns) {
+  NumberColumn streams, records, gaps, epochs;
+  std::vector<std::uint64_t> last;  // causes, by what stands in the column of streams
+  std::uint64_t epoch = 0;
+  for (const ChainStart& chain : chains) {
+    const bool all = chain.cause_stream == AccessCause::kAllEarlier;
+    const std::size_t stream = all ? 0 : chain.cause_stream + std::size_t{1};
+    if (last.size() <= stream) last.resize(stream + 1);
+    const std::uint64_t cause = chain.cause_record << 1 | (chain.cause_ended ? 1 : 0);
+    streams.put(stream);
+    records.put(zigzag(static_cast<std::int64_t>(cause - std::exchange(last[stream], cause))));
+    gaps.put(chain.gap);
+    epochs.put(chain.epoch - std::exchange(epoch, chain.epoch));
+  }
+  for (const NumberColumn* column : {&streams, &records, &gaps, &epochs}) columns.numbers(*column);
 }
 
-ByteVector MemoryBlockWriter::take() {
-  NumberColumn* const in_order[] = {&contexts_,      &cycles_,        &codes_, &addresses_,
-                                    &cause_streams_, &cause_records_, &gaps_,  &epochs_};
+}  // namespace
+
+ByteVector encode_memory_block(const MemoryBlock& block,
+                               const std::vector<MemoryOperation>& operations) {
   ByteVector raw;
   ColumnWriter columns(raw);
-  for (NumberColumn* column : in_order) {
-    columns.numbers(*column);
-    column->clear();
-  }
-  last_addresses_.clear();
-  last_causes_.clear();
-  last_cycle_ = 0;
-  last_epoch_ = 0;
-  num_records_ = 0;
+  put_records(block.records, operations, columns);
+  put_chains(block.chains, columns);
   return raw;
 }
 

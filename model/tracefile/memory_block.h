@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/access_cause.h"
-#include "tracefile/columns.h"
+#include "tracefile/byte_order.h"
 #include "tracefile/memory_layout.h"
 
 namespace sheaf {
@@ -56,41 +54,10 @@ struct MemoryBlock {
   return key & ((std::uint64_t{1} << 48) - 1);
 }
 
-/// The last address of each context and kind of data, to which the next one is given.
-class LastAddresses {
- public:
-  static constexpr std::size_t kMaxContexts = 64;
-  Address& of(std::uint8_t context, DataKind kind) {
-    return last_[context][static_cast<std::size_t>(kind)];
-  }
-  void clear() { last_ = {}; }
-
- private:
-  std::array<std::array<Address, kNumDataKinds>, kMaxContexts> last_{};
-};
-
-/// The content of a frame, packed as it comes; traces/README.md describes it.
-class MemoryBlockWriter {
- public:
-  /// Records that follow those before; their operations are numbers among these.
-  void add(std::span<const MemoryRecord> records, const std::vector<MemoryOperation>& operations);
-  /// One for each record that begins a chain, in their order.
-  void add(const ChainStart& chain);
-
-  [[nodiscard]] std::uint32_t num_records() const { return num_records_; }
-  /// What has been added since the last time.
-  [[nodiscard]] ByteVector take();
-
- private:
-  NumberColumn contexts_, cycles_, codes_, addresses_;
-  NumberColumn cause_streams_, cause_records_, gaps_, epochs_;
-  LastAddresses last_addresses_;
-  std::vector<std::uint64_t> steps_;        ///< from address to address, while they are packed
-  std::vector<std::uint64_t> last_causes_;  ///< by what stands in the column of streams
-  Cycles last_cycle_ = 0;
-  std::uint64_t last_epoch_ = 0;
-  std::uint32_t num_records_ = 0;
-};
+/// The content of a frame; traces/README.md describes it. The records' operations are numbers among
+/// these.
+[[nodiscard]] ByteVector encode_memory_block(const MemoryBlock& block,
+                                             const std::vector<MemoryOperation>& operations);
 
 /// The inverse, appended to `block`. Throws BadColumn for what is no frame of `num_records` records
 /// of this stream; what it accepts refers only to what the layout has, and its steps are whole.

@@ -3,6 +3,7 @@
 #include "tracefile/memory_recorder.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sheaf {
 namespace {
@@ -46,16 +47,16 @@ AccessCause StreamRecorder::end(int context, Cycles now) {
   return ended;
 }
 
-void StreamRecorder::pack() {
-  block_.add({held_.data(), num_held_}, recorder_.layout_.operations);
-  num_held_ = 0;
-}
-
 void StreamRecorder::flush() {
-  pack();
-  const std::uint32_t count = block_.num_records();
-  if (count == 0) return;
-  recorder_.writer_.add(memory_key(number_, num_records_ - count), count, block_.take());
+  if (block_.records.empty()) return;
+  const auto count = static_cast<std::uint32_t>(block_.records.size());
+  const auto block = std::make_shared<const MemoryBlock>(std::move(block_));
+  block_ = {};
+  block_.records.reserve(kBlockRecords);
+  recorder_.writer_.add(memory_key(number_, num_records_ - count), count,
+                        [block, operations = recorder_.layout_.operations] {
+                          return encode_memory_block(*block, operations);
+                        });
 }
 
 StreamRecorder& MemoryRecorder::add_stream(const MemoryTraceStream& stream) {

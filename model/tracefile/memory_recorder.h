@@ -52,9 +52,9 @@ class StreamRecorder {
 
   /// A step of one access, or of none; its first look-up. `last`: of its chain.
   void step(int context, std::uint32_t operation, Address address, bool last, Cycles now) {
-    if (block_.num_records() + num_held_ >= kBlockRecords) flush();
+    if (block_.records.size() >= kBlockRecords) flush();
     Context& state = contexts_[static_cast<std::size_t>(context)];
-    if (state.begins) block_.add(state.start);
+    if (state.begins) block_.chains.push_back(state.start);
     add(context,
         {address, now, operation, static_cast<std::uint8_t>(context), state.begins, last, false});
     state.begins = false;
@@ -80,7 +80,6 @@ class StreamRecorder {
 
  private:
   static constexpr std::size_t kBlockRecords = std::size_t{1} << 16;
-  static constexpr std::size_t kHeldRecords = 64;  // all units' together stay in the first cache
   static constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
   struct Context {
     std::uint64_t last = 0;  ///< number of its last record
@@ -89,11 +88,9 @@ class StreamRecorder {
     ChainStart start;     ///< of that chain
   };
   void add(int context, const MemoryRecord& record) {
-    if (num_held_ == held_.size()) pack();
-    held_[num_held_++] = record;
+    block_.records.push_back(record);
     contexts_[static_cast<std::size_t>(context)].last = num_records_++;
   }
-  void pack();
   std::uint32_t learn(std::size_t key, const MemoryOperation& operation);
 
   MemoryRecorder& recorder_;
@@ -102,16 +99,14 @@ class StreamRecorder {
   const bool awaited_;
   Group& group_;
   std::array<Context, 64> contexts_{};
-  std::array<MemoryRecord, kHeldRecords> held_;  ///< still to be packed
-  std::size_t num_held_ = 0;
-  MemoryBlockWriter block_;
+  MemoryBlock block_;
   std::uint64_t num_records_ = 0;
   std::vector<std::uint32_t> known_;  ///< operations by the unit's key
 };
 
 /// Takes down a memory trace: every access of the units to their private caches, and what each had
-/// to wait for, so that it can be replayed on other caches and another memory. Holds 64 Ki packed
-/// records of each unit at most, whatever the length of the run.
+/// to wait for, so that it can be replayed on other caches and another memory. Holds 64 Ki records
+/// of each unit at most, whatever the length of the run.
 class MemoryRecorder {
  public:
   explicit MemoryRecorder(TraceWriter& writer) : writer_(writer) {}

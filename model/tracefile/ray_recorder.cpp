@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 #include <utility>
 
 namespace sheaf {
@@ -84,10 +85,14 @@ void RayRecorder::record(const RayPacket& packet, const PacketShading& shading) 
 void RayRecorder::write(std::uint64_t number, RayBlock& block) {
   if (block.rays.empty()) return;
   open_bytes_ -= block.num_bytes();
-  ByteVector raw;
-  encode_ray_block(block, grid_, raw);
-  writer_.add(number, static_cast<std::uint32_t>(block.rays.size()), std::move(raw));
-  block.clear();
+  const auto count = static_cast<std::uint32_t>(block.rays.size());
+  const auto content = std::make_shared<const RayBlock>(std::move(block));
+  writer_.add(number, count, [content, grid = grid_] {
+    ByteVector raw;
+    encode_ray_block(*content, grid, raw);
+    return raw;
+  });
+  block = {};
 }
 
 void RayRecorder::write_largest() {

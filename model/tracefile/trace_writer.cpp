@@ -85,10 +85,9 @@ void TraceWriter::write(ByteSpan bytes) {
   offset_ += bytes.size();
 }
 
-void TraceWriter::add(std::uint64_t key, std::uint32_t num_records, ByteVector raw) {
-  if (raw.size() > kMaxFrameBytes) throw std::logic_error("a trace frame is too large");
+void TraceWriter::add(std::uint64_t key, std::uint32_t num_records, Pack pack) {
   num_records_ += num_records;
-  queue_.push({FrameType::kData, key, num_records, std::move(raw)});
+  queue_.push({FrameType::kData, key, num_records, std::move(pack)});
 }
 
 // After a failure it goes on taking frames, and drops them, so that nobody waits for room for ever.
@@ -105,7 +104,10 @@ void TraceWriter::write_queued() {
 
 void TraceWriter::write_frame(const Frame& frame) {
   if (error_ != 0) return;
-  const ByteVector& raw = frame.raw;
+  const ByteVector raw = frame.pack();
+  if (frame.type != FrameType::kIndex && raw.size() > kMaxFrameBytes) {
+    throw std::logic_error("a trace frame is too large");
+  }
   const std::size_t bound = ZSTD_compressBound(raw.size());
   if (stored_.size() < bound) stored_.resize(bound);
   const std::size_t size =
@@ -124,16 +126,16 @@ void TraceWriter::write_frame(const Frame& frame) {
 }
 
 void TraceWriter::finish(const std::string& metadata) {
-  if (metadata.size() > kMaxFrameBytes) throw std::logic_error("a trace's metadata are too large");
-  queue_.push({FrameType::kMetadata, 0, 0, ByteVector(metadata.begin(), metadata.end())});
+  queue_.push(
+      {FrameType::kMetadata, 0, 0, [&] { return ByteVector(metadata.begin(), metadata.end()); }});
   queue_.close();
   thread_.join();
   if (thrown_) std::rethrow_exception(thrown_);
   TraceTrailer trailer{offset_, frames_.size(), num_records_, 0};
   ByteVector index;
   for (const TraceFrame& frame : frames_) encode_index_entry(frame, index);
-  write_frame(
-      {FrameType::kIndex, 0, static_cast<std::uint32_t>(trailer.num_frames), std::move(index)});
+  write_frame({FrameType::kIndex, 0, static_cast<std::uint32_t>(trailer.num_frames),
+               [&] { return index; }});
   trailer.file_bytes = offset_ + kTraceTrailerBytes;
   write(encode_trailer(trailer));
   close();

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -20,7 +21,7 @@ namespace sheaf {
 
 /// Writes a trace frame by frame under a temporary name and renames it when it is whole. Keeps only
 /// the index in memory, 32 bytes a frame, and few frames that a thread of its own has yet to
-/// compress and write, in the order in which they come.
+/// pack, compress and write, in the order in which they come.
 ///
 /// Called from within a simulation, where exceptions have nowhere to go: a failure to write is
 /// remembered, what follows is dropped, and finish() throws. Poll failed() to stop early.
@@ -33,9 +34,10 @@ class TraceWriter {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  /// One data frame, to be compressed and written; `raw` is at most kMaxFrameBytes. Waits while
-  /// too many are.
-  void add(std::uint64_t key, std::uint32_t num_records, ByteVector raw);
+  /// Packs the content of a frame, at most kMaxFrameBytes; called by the writer's thread.
+  using Pack = std::function<ByteVector()>;
+  /// One data frame, to be packed, compressed and written. Waits while too many are.
+  void add(std::uint64_t key, std::uint32_t num_records, Pack pack);
 
   [[nodiscard]] bool failed() const { return error_ != 0; }
 
@@ -48,7 +50,7 @@ class TraceWriter {
     FrameType type;
     std::uint64_t key;
     std::uint32_t num_records;
-    ByteVector raw;
+    Pack pack;
   };
   void start_thread();
   void write_queued();

@@ -18,7 +18,7 @@ void seal(const std::filesystem::path& path, const std::string& metadata, sheaf:
   if (frame.size() > 3) {
     const std::uint32_t num_records = frame[0] + 256U * frame[1];
     const sheaf::ByteVector content(frame.begin() + 3, frame.end());
-    writer.add(sheaf::memory_key(frame[2], 0), num_records, content);
+    writer.add(sheaf::memory_key(frame[2], 0), num_records, [content] { return content; });
   }
   writer.finish(metadata);
 }

@@ -75,10 +75,7 @@ bool are_equal(const std::vector<T>& a, const std::vector<T>& b) {
 RC_GTEST_PROP(TracesProperty, WhatIsWrittenIsRead, ()) {
   const MemoryLayout layout = two_streams();
   const MemoryBlock block = any_block(layout);
-  MemoryBlockWriter writer;
-  writer.add(block.records, layout.operations);
-  for (const ChainStart& chain : block.chains) writer.add(chain);
-  const ByteVector raw = writer.take();
+  const ByteVector raw = encode_memory_block(block, layout.operations);
   MemoryBlock read;
   decode_memory_block(raw, 1, static_cast<std::uint32_t>(block.records.size()), layout, read);
   RC_ASSERT(are_equal(read.records, block.records));

@@ -25,8 +25,8 @@ class Container : public testing::Test {
  protected:
   void SetUp() override {
     TraceWriter writer(path_, kIdentity);
-    writer.add(0, 3, kFirst);
-    writer.add(3, 2, kSecond);
+    writer.add(0, 3, [] { return kFirst; });
+    writer.add(3, 2, [] { return kSecond; });
     writer.finish("{\"a\": 1}");
     bytes_ = read_bytes(path_);
   }
@@ -111,8 +111,8 @@ TEST_F(Container, RefusesFramesThatChangedPlaces) {
   const ScratchFolder other;
   {
     TraceWriter writer(other / "two.trace", kIdentity);
-    writer.add(0, 1, kSecond);
-    writer.add(0, 1, ByteVector{5, 4, 3, 2, 1});
+    writer.add(0, 1, [] { return kSecond; });
+    writer.add(0, 1, [] { return ByteVector{5, 4, 3, 2, 1}; });
     writer.finish("{}");
   }
   std::string bytes = read_bytes(other / "two.trace");
@@ -143,7 +143,7 @@ TEST_F(Container, HasItsNameOnlyOnceItIsWhole) {
   const std::filesystem::path path = scratch_ / "new.trace";
   {
     TraceWriter writer(path, kIdentity);
-    writer.add(0, 1, kSecond);
+    writer.add(0, 1, [] { return kSecond; });
     EXPECT_FALSE(std::filesystem::exists(path));
   }
   EXPECT_TRUE(std::filesystem::exists(path_));

@@ -39,7 +39,7 @@ TEST_P(FullDisk, EndsInAnErrorAndLeavesNothing) {
   const test::ScratchFolder scratch;
   {
     TraceWriter writer(scratch / "full.trace", {});
-    for (int i = 0; i < 5; ++i) writer.add(0, 1, noise());
+    for (int i = 0; i < 5; ++i) writer.add(0, 1, noise);
     try {
       writer.finish("{}");
       FAIL() << "a trace that did not fit was called whole";
@@ -57,7 +57,7 @@ TEST_P(FullDisk, KeepsNobodyWaiting) {
   const test::ScratchFolder scratch;
   {
     TraceWriter writer(scratch / "full.trace", {});
-    for (int i = 0; i < 100; ++i) writer.add(0, 1, noise());
+    for (int i = 0; i < 100; ++i) writer.add(0, 1, noise);
     EXPECT_TRUE(writer.failed()) << "the run would have gone on to its end for nothing";
     EXPECT_THROW(writer.finish("{}"), Error);
   }

@@ -25,7 +25,7 @@ class Lookup : public testing::Test {
     ByteVector raw;
     for (const auto& [number, block] : blocks) {
       encode_ray_block(block, grid_, raw);
-      writer.add(number, static_cast<std::uint32_t>(block.rays.size()), raw);
+      writer.add(number, static_cast<std::uint32_t>(block.rays.size()), [raw] { return raw; });
     }
     writer.finish("{}");
   }
