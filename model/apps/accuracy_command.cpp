@@ -18,10 +18,11 @@ namespace sheaf {
 namespace {
 
 constexpr const char* kFooter =
-    "Leaves accuracy.txt, accuracy.csv, image_error.csv and a plot of each. Every level runs in a\n"
-    "process of its own on the same prepared scene; run.fidelity, run.quantum, run.sample_share "
-    "and\n"
-    "film.format are chosen by this command. The reference clocked is exact and slow; timed is\n"
+    "Leaves accuracy.txt, accuracy.csv and image_error.csv with a plot of each, and "
+    "precision.csv.\n"
+    "Every level runs in a process of its own on the same prepared scene; run.fidelity,\n"
+    "run.quantum, run.sample_share and film.format are chosen by this command. The reference "
+    "clocked is exact and slow; timed is\n"
     "usually the same. For example:\n"
     "  sheaf accuracy scenes/dragon.glb --set image.width=160 --set image.height=120\n"
     "Exit codes: 0 done; 2 command line or configuration refused; 3 scene refused; 4 result not\n"
@@ -82,6 +83,9 @@ void write_result(const AccuracyResult& result, const Config& config, const std:
     folder.write("image_error.csv", image_error_csv(result));
     write_plot(image_error_plot(result), "image_error", folder);
   }
+  if (!result.precision.rows.empty()) {
+    folder.write("precision.csv", precision_csv(result.precision));
+  }
   folder.commit();
 }
 
@@ -89,7 +93,8 @@ void write_result(const AccuracyResult& result, const Config& config, const std:
 
 void declare_accuracy_command(CLI::App& app, AccuracyOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "accuracy", "Compare the levels of fidelity and the film formats: error against run time");
+      "accuracy",
+      "Compare levels of fidelity, film formats and bits of planes and rays by cost and error");
   command->add_option("SCENE", options.scene, "glTF 2.0 file (.gltf or .glb)")->required();
   command->add_option("--config", options.config, "TOML file with parameters of the machine");
   command->add_option("--set", options.settings, "Set one parameter; repeatable")
@@ -117,6 +122,7 @@ int accuracy_command(const AccuracyOptions& options) {
   result.scene = options.scene.filename().string();
   const bool complete = run_levels(options, scene, result);
   if (complete) result.images = image_errors(config, scene, interrupted);
+  if (complete) result.precision = precision_costs(config, scene, interrupted);
   if (result.runs.empty()) return static_cast<int>(ExitCode::kInterrupted);
   std::string text = accuracy_text(result);
   if (interrupted()) text = "PARTIAL: interrupted\n" + text;

@@ -25,9 +25,9 @@ struct AccuracyOptions {
 /// Declares `sheaf accuracy`, bound to `options`.
 void declare_accuracy_command(CLI::App& app, AccuracyOptions& options);
 
-/// `sheaf accuracy`: simulates one scene on one machine at every level of fidelity and with every
-/// film format, and tells what each choice costs and how far it is off. Returns an exit code;
-/// throws Error for what the user can mend.
+/// `sheaf accuracy`: simulates one scene on one machine at every level of fidelity, with every film
+/// format and with split planes and rays in fewer bits, and tells what each choice costs and how
+/// far it is off. Returns an exit code; throws Error for what the user can mend.
 int accuracy_command(const AccuracyOptions& options);
 
 }  // namespace sheaf

@@ -87,13 +87,35 @@ TEST(AccuracyCommand, FindsThePapersExampleLostInEightBits) {
   EXPECT_GT(std::stod(rows[1].at("rel_mse")), std::stod(rows[2].at("rel_mse")));
 }
 
+TEST(AccuracyCommand, LosesNoHitInFewerBits) {
+  const ScratchFolder scratch;
+  const CommandResult result = run_sheaf(arguments(scratch / "out", {"--reference", "timed"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Rows rows = read_csv(scratch / "out" / "precision.csv");
+  ASSERT_EQ(rows.size(), 13U);
+  EXPECT_EQ(rows[0].at("stored"), "nothing");
+  EXPECT_EQ(rows[0].at("steps_added"), "0");
+  for (const auto& row : rows) {
+    EXPECT_GT(std::stoul(row.at("rays")), 32U * 24U);
+    EXPECT_EQ(row.at("other_hits"), "0");
+    EXPECT_EQ(row.at("rmse"), "0");
+  }
+  EXPECT_EQ(rows[12].at("stored"), "both");
+  EXPECT_EQ(rows[12].at("format"), "fixed 8");
+  EXPECT_EQ(rows[12].at("node_bits_saved"), "24");
+  EXPECT_EQ(rows[12].at("ray_bits_saved"), "144");
+  EXPECT_GT(std::stod(rows[12].at("steps_added")), std::stod(rows[3].at("steps_added")));
+  EXPECT_NE(result.out.find("planes and rays in fewer bits"), std::string::npos);
+}
+
 TEST(AccuracyCommand, SaysTheSameTwiceButForTimes) {
   const ScratchFolder scratch;
   for (const char* name : {"a", "b"}) {
     ASSERT_EQ(run_sheaf(arguments(scratch / name, {"--reference", "timed"})).exit_code, 0);
   }
-  EXPECT_EQ(read_bytes(scratch / "a" / "image_error.csv"),
-            read_bytes(scratch / "b" / "image_error.csv"));
+  for (const char* file : {"image_error.csv", "precision.csv"}) {
+    EXPECT_EQ(read_bytes(scratch / "a" / file), read_bytes(scratch / "b" / file));
+  }
   Rows a = read_csv(scratch / "a" / "accuracy.csv");
   Rows b = read_csv(scratch / "b" / "accuracy.csv");
   for (Rows* rows : {&a, &b}) {

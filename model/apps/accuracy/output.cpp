@@ -108,6 +108,7 @@ std::string accuracy_text(const AccuracyResult& result) {
   add_levels(result, text);
   add_cheapest(result, text);
   if (!result.images.empty()) add_images(result, text);
+  if (!result.precision.rows.empty()) text += precision_text(result.precision);
   return text;
 }
 

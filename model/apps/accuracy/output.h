@@ -7,6 +7,7 @@
 
 #include "apps/accuracy/image_error.h"
 #include "apps/accuracy/levels.h"
+#include "apps/accuracy/precision.h"
 #include "report/plot.h"
 
 namespace sheaf {
@@ -17,6 +18,7 @@ struct AccuracyResult {
   std::vector<LevelRun> runs;
   LevelRun reference;
   std::vector<ImageError> images;
+  PrecisionCosts precision;
 };
 
 // For people.
