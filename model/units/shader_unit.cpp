@@ -91,9 +91,10 @@ void ShaderUnit::begin_phase(int number, Phase phase) {
 
 // Lines in ascending order, each once.
 void ShaderUnit::list_lines(Context& context) {
-  const PrivateCache& cache = context.phase == Phase::kTexels ? *textures_ : attributes_;
   auto& lines = context.lines;
   list_addresses(context, lines);
+  if (lines.empty()) return;  // such as texels where there are no textures, and no cache for them
+  const PrivateCache& cache = context.phase == Phase::kTexels ? *textures_ : attributes_;
   for (std::uint64_t& line : lines) line = cache.line_of(line);
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
