@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -155,6 +155,15 @@ def processes_with(word: str) -> list[int]:
     return [pid for pid in found if pid != os.getpid()]
 
 
+@pytest.fixture
+def hears_interrupts() -> Iterator[None]:
+    """Children hear Ctrl-C even where the tests run in the background, which ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("hears_interrupts")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_sweep_stops_at_once_and_resumes(
     sweep: Sweep, write_spec: Write, stand_in: Simulator, tmp_path: Path, number: signal.Signals
