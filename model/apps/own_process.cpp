@@ -26,6 +26,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 template <typename Values>
 bool write_all(std::FILE* file, const Values& values) {
+  if (values.empty()) return true;  // an interrupted child has no numbers
   const bool whole =
       std::fwrite(values.data(), sizeof(values[0]), values.size(), file) == values.size();
   return std::fflush(file) == 0 && whole;
