@@ -96,6 +96,23 @@ PreparedScene prepare_scene(const std::filesystem::path& file, const Config& con
   return {load_with_notes(file, config), config, cache ? &*cache : nullptr};
 }
 
+int finish_run(const RunResult& result, ResultFolder& folder) {
+  folder.write("config.toml", config_toml(result.config, Comments::kMeanings));
+  folder.write("summary.txt", result.summary);
+  folder.write("stats.json", stats_json(result.stats));
+  folder.commit();
+  if (!result.quiet) {
+    std::fputs(result.summary.c_str(), stdout);
+    std::fputs(fmt::format("Results: {}\n", folder.path().string()).c_str(), stdout);
+  }
+  if (result.complete) return static_cast<int>(ExitCode::kOk);
+  std::fputs(
+      fmt::format("sheaf: stopped before {}; the results are marked as partial\n", result.unreached)
+          .c_str(),
+      stderr);
+  return static_cast<int>(interrupted() ? ExitCode::kInterrupted : ExitCode::kOk);
+}
+
 int run_frame(const FrameJob& job, ResultFolder& folder) {
   const Config& config = job.config;
   const HeuristicChoice heuristic = HeuristicChoice::parse(config.ray_cache.heuristic);
@@ -134,19 +151,9 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
 
   const std::string summary =
       summarize({config, plan, stats, complete, {load_seconds, build_seconds, run_seconds}});
-  folder.write("config.toml", config_toml(config, Comments::kMeanings));
   if (job.images) write_images(config, frame, folder);
-  folder.write("summary.txt", summary);
-  folder.write("stats.json", stats_json(stats));
-  folder.commit();
-  if (!job.quiet) {
-    std::fputs(summary.c_str(), stdout);
-    std::fputs(fmt::format("Results: {}\n", folder.path().string()).c_str(), stdout);
-  }
-  if (complete) return static_cast<int>(ExitCode::kOk);
-  std::fputs("sheaf: stopped before the frame was complete; the results are marked as partial\n",
-             stderr);
-  return static_cast<int>(interrupted() ? ExitCode::kInterrupted : ExitCode::kOk);
+  return finish_run({config, stats, summary, complete, "the frame was complete", job.quiet},
+                    folder);
 }
 
 }  // namespace sheaf

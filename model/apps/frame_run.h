@@ -31,6 +31,20 @@ void catch_interrupts();
 [[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,
                                           const std::optional<std::filesystem::path>& trees);
 
+/// What a run has come to.
+struct RunResult {
+  const Config& config;
+  const StatsTree& stats;
+  const std::string& summary;
+  bool complete = true;
+  const char* unreached = "";  ///< completes "stopped before ..."
+  bool quiet = false;          ///< no summary on standard output
+};
+
+/// Writes configuration, summary and counters beside what the folder holds, makes it appear, and
+/// says so. Returns an exit code; throws Error(kOutput).
+int finish_run(const RunResult& result, ResultFolder& folder);
+
 /// Something that takes part in a run: a recorder, or a trace in the shader's place.
 class FrameGuest {
  public:

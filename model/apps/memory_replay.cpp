@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "apps/frame_run.h"
 #include "base/errors.h"
@@ -14,7 +13,6 @@
 #include "report/progress.h"
 #include "report/replay_summary.h"
 #include "report/result_folder.h"
-#include "report/stats_json.h"
 #include "system/replay_machine.h"
 #include "system/reported_values.h"
 
@@ -53,18 +51,8 @@ int replay_memory(const ReplayOptions& options, const Config& config, TraceReade
   machine.report(stats);
   stats.add("run", RunValues::complete, complete ? 1 : 0);
   const std::string summary = summarize_replay(stats, metadata, options.mode);
-  folder.write("config.toml", config_toml(config, Comments::kMeanings));
-  folder.write("summary.txt", summary);
-  folder.write("stats.json", stats_json(stats));
-  folder.commit();
-  if (!options.quiet) {
-    std::fputs(summary.c_str(), stdout);
-    std::fputs(fmt::format("Results: {}\n", folder.path().string()).c_str(), stdout);
-  }
-  if (complete) return static_cast<int>(ExitCode::kOk);
-  std::fputs("sheaf: stopped before the end of the trace; the results are marked as partial\n",
-             stderr);
-  return static_cast<int>(interrupted() ? ExitCode::kInterrupted : ExitCode::kOk);
+  return finish_run({config, stats, summary, complete, "the end of the trace", options.quiet},
+                    folder);
 }
 
 }  // namespace sheaf

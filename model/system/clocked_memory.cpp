@@ -10,7 +10,7 @@ namespace sheaf {
 
 using clocked::Link;
 
-ClockedMemory::ClockedMemory(const Config& config) : link_(config.link) {
+ClockedMemory::ClockedMemory(const Config& config) : MemoryParts(config.link) {
   if (config.dram.model == DramModel::kFixed) {
     dram_ = std::make_unique<clocked::FixedDram>(config.l2.hit_latency, config.dram);
   } else {
@@ -23,13 +23,12 @@ ClockedMemory::ClockedMemory(const Config& config) : link_(config.link) {
 ClockedMemory::Requester ClockedMemory::add_requester(Bytes bytes) {
   const auto number = static_cast<std::uint16_t>(requests_.size());
   const Cycles latency = link_.memory_latency;
-  const Cycles transfer = (bytes + link_.memory_width - 1) / link_.memory_width;
   requests_.push_back(std::make_unique<Link<LineRequest>>(
       fmt::format("cache_{}_to_l2", number),
       Link<LineRequest>::Spec{.latency = latency, .interval = 0}));
   lines_.push_back(std::make_unique<Link<LineResponse>>(
       fmt::format("l2_to_cache_{}", number),
-      Link<LineResponse>::Spec{.latency = latency, .interval = transfer}));
+      Link<LineResponse>::Spec{.latency = latency, .interval = transfer(bytes)}));
   l2_->in_requests.push_back(requests_.back().get());
   l2_->out_responses.push_back(lines_.back().get());
   return {number, *requests_.back(), *lines_.back()};

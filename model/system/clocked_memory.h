@@ -31,9 +31,6 @@ class ClockedMemory : public MemoryParts<clocked::Link, clocked::L2Cache, clocke
   void tick(Cycles now);
   /// Brings what has been written, and may still be on its way, to memory.
   void drain(Cycles now);
-
- private:
-  const LinkSpec link_;
 };
 
 }  // namespace sheaf

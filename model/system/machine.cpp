@@ -130,13 +130,12 @@ void Machine::build_regrouper() {
 void Machine::build_spill() {
   links_.spill_to_regrouper = std::make_unique<TimedChannel<SpawnBundle*>>(
       "spill_to_regrouper", TimedChannel<SpawnBundle*>::Spec{.capacity = 2, .latency = 1});
-  CacheSpec line;
-  line.line = config_.l2.line / config_.l2.sectors;
+  const Bytes line = config_.l2.line / config_.l2.sectors;
   const std::uint16_t requester = memory_->add_requester(line);
   spill_ = std::make_unique<SpillUnit>(
       "spill",
       SpillUnit::Spec{.queue = config_.flow.spill_queue,
-                      .line = line.line,
+                      .line = line,
                       .base = scene_.memory.region(DataKind::kSpilledRay).base,
                       .requester = requester},
       memory_->requests(), domain_);

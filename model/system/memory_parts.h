@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "config/config.h"
 #include "memory/memory_messages.h"
 #include "stats/report_tree.h"
 
@@ -42,8 +43,15 @@ class MemoryParts {
   void report(Cycles end, std::uint64_t rays, bool spills, StatsTree& stats) const;
 
  protected:
-  MemoryParts() = default;
+  explicit MemoryParts(const LinkSpec& link) : link_(link) {}
   ~MemoryParts() = default;
+
+  /// That so many bytes take on a private cache's way back from the L2.
+  [[nodiscard]] Cycles transfer(Bytes bytes) const {
+    return (bytes + link_.memory_width - 1) / link_.memory_width;
+  }
+
+  const LinkSpec link_;
 
   std::vector<std::unique_ptr<Link<LineRequest>>> requests_;  ///< to the L2
   std::vector<std::unique_ptr<Link<LineResponse>>> lines_;    ///< from it, to each private cache

@@ -19,7 +19,7 @@ sc_core::sc_time clock_period(const Config& config) {
   return {1.0 / config.clock.frequency, sc_core::SC_SEC};
 }
 
-MemorySystem::MemorySystem(const Config& config, ClockDomain& domain) : link_(config.link) {
+MemorySystem::MemorySystem(const Config& config, ClockDomain& domain) : MemoryParts(config.link) {
   requests_.push_back(std::make_unique<TimedChannel<LineRequest>>(
       "caches_to_l2", TimedChannel<LineRequest>::Spec{
                           .capacity = kNeverFull, .latency = link_.memory_latency, .interval = 0}));
@@ -36,14 +36,12 @@ MemorySystem::MemorySystem(const Config& config, ClockDomain& domain) : link_(co
   l2_->to_dram.bind(dram_->from_cache);
 }
 
-std::uint16_t MemorySystem::add_requester(const CacheSpec& cache) {
+std::uint16_t MemorySystem::add_requester(Bytes bytes) {
   const auto number = static_cast<std::uint16_t>(lines_.size());
-  const Cycles transfer =
-      (cache.line / cache.sectors + link_.memory_width - 1) / link_.memory_width;
   lines_.push_back(std::make_unique<TimedChannel<LineResponse>>(
       fmt::format("l2_to_cache_{}", number).c_str(),
       TimedChannel<LineResponse>::Spec{
-          .capacity = kNeverFull, .latency = link_.memory_latency, .interval = transfer}));
+          .capacity = kNeverFull, .latency = link_.memory_latency, .interval = transfer(bytes)}));
   l2_->out_responses(*lines_.back());
   return number;
 }

@@ -21,17 +21,18 @@ class MemorySystem : public MemoryParts<TimedChannel, L2Cache, MainMemory> {
  public:
   MemorySystem(const Config& config, ClockDomain& domain);
 
-  /// Makes the link that brings the lines of one more private cache; returns the cache's number at
-  /// the L2.
-  [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache);
+  /// Makes the link that brings pieces of `bytes` to one more requester; returns its number at the
+  /// L2.
+  [[nodiscard]] std::uint16_t add_requester(Bytes bytes);
+  /// The same for a private cache.
+  [[nodiscard]] std::uint16_t add_requester(const CacheSpec& cache) {
+    return add_requester(cache.line / cache.sectors);
+  }
   /// The link of that number.
   [[nodiscard]] TimedChannel<LineResponse>& lines(std::uint16_t requester) {
     return *lines_[requester];
   }
   [[nodiscard]] TimedOut<LineRequest>& requests() { return *requests_.front(); }
-
- private:
-  const LinkSpec link_;
 };
 
 }  // namespace sheaf
