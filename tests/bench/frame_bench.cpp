@@ -18,6 +18,7 @@
 #include "scene/load_gltf.h"
 #include "sorting/spawn_bundle.h"
 #include "support/embree_oracle.h"
+#include "system/analytic_model.h"
 #include "system/functional_pipeline.h"
 #include "system/machine.h"
 
@@ -91,6 +92,17 @@ double functional_seconds(const Config& config, const BuildPlan& plan, const Pre
   return cpu_seconds() - start;
 }
 
+/// The functional run with every line that it touches looked up in the tags of the machine's
+/// caches.
+double analytic_seconds(const Config& config, const BuildPlan& plan, const PreparedScene& scene) {
+  const double start = cpu_seconds();
+  Frame frame(config);
+  AnalyticModel model(config, scene);
+  FunctionalPipeline pipeline(config, plan, scene, frame, {}, &model);
+  model.run(pipeline, {});
+  return cpu_seconds() - start;
+}
+
 double timed_seconds(const Config& config, const BuildPlan& plan, const PreparedScene& scene) {
   const double start = cpu_seconds();
   Frame frame(config);
@@ -109,18 +121,21 @@ void measure_scene(const std::string& path, const Config& config, int repeats) {
 
   std::vector<double> merely_traced;
   std::vector<double> functional;
+  std::vector<double> analytic;
   std::vector<double> timed;
   for (int i = 0; i < repeats; ++i) {
     merely_traced.push_back(in_child([&] { return embree_seconds(embree, rays); }));
     functional.push_back(in_child([&] { return functional_seconds(config, plan, scene); }));
+    analytic.push_back(in_child([&] { return analytic_seconds(config, plan, scene); }));
     timed.push_back(in_child([&] { return timed_seconds(config, plan, scene); }));
   }
   const double millions = static_cast<double>(rays.size()) * 1e-6;
   const std::string name = path.substr(path.find_last_of('/') + 1);
-  fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name, millions,
-             millions / median(merely_traced), millions / median(functional),
-             millions / median(timed), median(merely_traced) / median(timed),
-             median(timed) / median(functional));
+  fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n",
+             name, millions, millions / median(merely_traced), millions / median(functional),
+             millions / median(analytic), millions / median(timed),
+             median(merely_traced) / median(timed), median(timed) / median(functional),
+             median(analytic) / median(functional));
   std::fflush(stdout);
 }
 
@@ -138,8 +153,9 @@ int run(int argc, char** argv) {
   settings.insert(settings.begin(), "render.recursion_level=3");
   const Config config = resolve_config({}, settings);
   fmt::print(
-      "| scene | million rays | Embree | functional | timed | timed / Embree (speed) "
-      "| timed / functional (time) |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+      "| scene | million rays | Embree | functional | analytic | timed | timed / Embree (speed) "
+      "| timed / functional (time) | analytic / functional (time) |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   std::fflush(stdout);
   for (const std::string& scene : scenes) measure_scene(scene, config, repeats);
   return 0;
