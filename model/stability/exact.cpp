@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/exact.h"
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
@@ -56,6 +57,18 @@ double ratio(const Integer& numerator, const Integer& denominator) {
   return std::ldexp(n.mantissa / d.mantissa, n.exponent - d.exponent);
 }
 
+/// A positive x · 2^149 to so many bits, and to no less than 2^least: to nearest, ties to even.
+Integer rounded(const Integer& x, int bits, int least) {
+  if (x == 0) return x;
+  const int shift = std::max(static_cast<int>(msb(x)) + 1 - bits, least + 149);
+  if (shift <= 0) return x;
+  Integer quotient = x >> shift;
+  const Integer twice_the_rest = (x - (quotient << shift)) << 1;
+  const Integer step = Integer(1) << shift;
+  if (twice_the_rest > step || (twice_the_rest == step && (quotient & 1) != 0)) ++quotient;
+  return quotient << shift;
+}
+
 }  // namespace
 
 // With corners relative to the origin, twice the area that the sheared edge from P to Q spans with
@@ -102,6 +115,28 @@ double sum_exactly(std::span<const float> terms) {
   Integer sum = 0;
   for (const float term : terms) sum += whole(term);
   return std::ldexp(ratio(sum, 1), -149);
+}
+
+std::vector<float> sums_by_definition(FilmFormat format, std::span<const float> terms) {
+  std::vector<float> sums;
+  if (format == FilmFormat::kUnorm8) {
+    Integer stored = 0;  // in steps of 1/255
+    for (const float term : terms) {
+      const Integer steps = (stored << 149) + 255 * whole(term);
+      stored = std::min<Integer>((steps + (Integer(1) << 148)) >> 149, 255);
+      sums.push_back(static_cast<float>(stored) / 255.0F);
+    }
+    return sums;
+  }
+  const bool half = format == FilmFormat::kHalf;
+  const Integer largest = whole(half ? 65504.0F : std::numeric_limits<float>::max());
+  Integer stored = 0;
+  for (const float term : terms) {
+    const Integer sum = std::min<Integer>(stored + whole(term), largest);
+    stored = half ? rounded(sum, 11, -24) : rounded(sum, 24, -149);
+    sums.push_back(static_cast<float>(std::ldexp(ratio(stored, 1), -149)));
+  }
+  return sums;
 }
 
 bool contains_axis(const ShearedTriangle& s) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "config/config.h"
 #include "geometry/watertight.h"
 #include "traversal/trace.h"
 
@@ -25,5 +27,10 @@ struct ExactHit {
 
 /// The sum of finite floats.
 [[nodiscard]] double sum_exactly(std::span<const float> terms);
+
+/// What a film's channel that rounds after every contribution holds after each of `terms`, by its
+/// definition (film.h): the sum of what is stored and a term, rounded once.
+[[nodiscard]] std::vector<float> sums_by_definition(FilmFormat format,
+                                                    std::span<const float> terms);
 
 }  // namespace sheaf::stability

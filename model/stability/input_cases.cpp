@@ -39,6 +39,9 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
+  /// What scenes must not read: buffers as they need them.
+  [[nodiscard]] std::string secret() const { return (root_ / "secret.bin").string(); }
+
   /// Whether the loader takes a scene.
   [[nodiscard]] bool takes(const Json& scene) const {
     const fs::path file = root_ / "scenes" / "scene.gltf";
@@ -116,15 +119,15 @@ std::vector<Spoilt> beyond_the_file() {
   };
 }
 
-std::vector<Spoilt> beyond_the_folder() {
-  const auto uri = [](const char* path) {
+std::vector<Spoilt> beyond_the_folder(const std::string& secret) {
+  const auto uri = [](const std::string& path) {
     return [path](Json& j) { j["buffers"][0]["uri"] = path; };
   };
   return {{"the folder above", uri("../secret.bin")},
           {"the folder above, escaped", uri("%2e%2e/secret.bin")},
           {"up and down", uri("sub/../../secret.bin")},
-          {"an absolute path", uri("/etc/hostname")},
-          {"a file URI", uri("file:///etc/hostname")},
+          {"an absolute path", uri(secret)},
+          {"a file URI", uri("file://" + secret)},
           {"a link to a file outside", uri("link.bin")}};
 }
 
@@ -152,8 +155,8 @@ std::vector<Spoilt> beyond_memory() {
           {"nodes in a circle", [](Json& j) { j["nodes"][0]["children"] = {0}; }}};
 }
 
-std::vector<Finding> refuse(const std::vector<Spoilt>& all, const char* why) {
-  const Scratch scratch;
+std::vector<Finding> refuse(const Scratch& scratch, const std::vector<Spoilt>& all,
+                            const char* why) {
   Failures taken;
   taken.check(scratch.takes(sound()), [] { return "the sound scene is refused"; });
   for (const Spoilt& spoilt : all) {
@@ -169,18 +172,19 @@ std::vector<Finding> refuse(const std::vector<Spoilt>& all, const char* why) {
 std::vector<StabilityCase> input_cases() {
   return {{"input", "beyond the file", "scenes that read past what they hold",
            [](const Effort&) {
-             return refuse(beyond_the_file(),
+             return refuse(Scratch(), beyond_the_file(),
                            "every access is checked against its view, every view "
                            "against its buffer, every buffer against its file");
            }},
           {"input", "beyond the folder", "scenes that name files outside of their folder",
            [](const Effort&) {
-             return refuse(beyond_the_folder(),
+             const Scratch scratch;
+             return refuse(scratch, beyond_the_folder(scratch.secret()),
                            "paths are relative and lead nowhere up (gltf_uri.h)");
            }},
           {"input", "beyond memory", "files of a kilobyte that ask for a hundred gigabytes",
            [](const Effort&) {
-             return refuse(beyond_memory(),
+             return refuse(Scratch(), beyond_memory(),
                            "the limits in gltf_limits.h, checked before anything is "
                            "allocated");
            }}};

@@ -65,6 +65,12 @@ MUTATIONS = [
         ("model/image/exact_sum.cpp",
          "if (half && ((mantissa & 1U) != 0 || any_below(words_, shift - 1))) {",
          "if (half && any_below(words_, shift - 1) && false) {")]),
+    Mutation("unorm8 rounds to nearest", "sums/", [
+        ("model/image/film.cpp", "static_cast<std::uint8_t>(sum + 0.5)",
+         "static_cast<std::uint8_t>(sum)")]),
+    Mutation("half rounds once", "sums/", [
+        ("model/image/film.cpp", "std::bit_cast<float>(bits | 1U)",
+         "std::bit_cast<float>(bits | 0U)")]),
     Mutation("accessors end within their view", "input/beyond the file", [
         ("model/scene/gltf_accessor.cpp",
          "if (offset > bytes.size() || needed > bytes.size() - offset) {",
@@ -110,20 +116,26 @@ def build(scratch: pathlib.Path) -> None:
 
 
 def failures(scratch: pathlib.Path, cases: str) -> list:
-    """Runs cases; the names of those that fail. A run that ends with a bug counts as one too."""
+    """Runs cases; the names of those that fail. A run that stops at an assertion of the simulator
+    counts as one too, a run that ends otherwise as none."""
     done = subprocess.run(["build/tests/sheaf", "stability", "--quick", "--only", cases],
                           cwd=scratch, capture_output=True, text=True, timeout=1800)
     if done.returncode == 0:
         return []
-    if done.returncode == 2:
-        sys.exit(done.stderr)
+    if done.returncode != 1:
+        sys.exit(f"exit code {done.returncode}: {done.stderr}")
     failed, case = [], ""
     for line in done.stdout.splitlines():
         if not line.startswith(" "):
             case = line.split(" (")[0]
         elif line.endswith("FAIL") and case not in failed:
             failed.append(case)
-    return failed or [f"ends with exit code {done.returncode}"]
+    if failed:
+        return failed
+    bug = done.stderr.strip().splitlines()[-1:]
+    if not bug or "bug of the simulator" not in bug[0]:
+        sys.exit(f"exit code 1 without a reason: {done.stderr}")
+    return [bug[0].split("please report it: ")[-1]]
 
 
 def try_out(scratch: pathlib.Path, mutation: Mutation) -> list:

@@ -43,25 +43,37 @@ TEST_P(Analytic, BoundsOfIssuePortsAreBelowTheTimedFrame) {
   }
 }
 
-TEST_P(Analytic, EstimatesWithinWhatIsDocumented) {
-  const Outcome timed = scene.run(with("timed"));
-  const Outcome analytic = scene.run(with("analytic"));
+const auto kMachines =
+    testing::Values(Settings{}, Settings{"flow.control=credits"},
+                    Settings{"dram.model=DDR4-2400", "l2.line=128", "l2.sectors=2"},
+                    Settings{"film_cache.write_policy=through", "l2.mode=perfect"});
+INSTANTIATE_TEST_SUITE_P(Machines, Analytic, kMachines);
+
+// What rtl_notes/deviations.md says of these scenes and machines.
+class AnalyticEstimate : public testing::TestWithParam<std::tuple<const char*, Settings>> {};
+
+TEST_P(AnalyticEstimate, IsAsFarOffAsDocumented) {
+  const auto& [name, machine] = GetParam();
+  const TestScene scene(committed_scene(name), {"image.width=64", "image.height=48"});
+  Settings settings = machine;
+  const Outcome timed = scene.run(settings);
+  settings.emplace_back("run.fidelity=analytic");
+  const Outcome analytic = scene.run(settings);
+  ASSERT_EQ(timed.error + analytic.error, "");
   const auto value = [](const Outcome& outcome, const char* path) {
     return outcome.stats.at(path).at("value").get<double>();
   };
   const double cycles = value(analytic, "estimate.cycles.value") / value(timed, "system.cycles");
-  EXPECT_GT(cycles, 0.5);
-  EXPECT_LT(cycles, 1.5);
+  RecordProperty("cycles", std::to_string(cycles - 1.0));
+  EXPECT_LE(cycles, 1.0 - 0.06);
+  EXPECT_GE(cycles, 1.0 - 0.41);
   const double dram =
       value(timed, "system.dram.bytes_read") + value(timed, "system.dram.bytes_written");
-  EXPECT_NEAR(value(analytic, "estimate.dram_bytes.value"), dram, 0.05 * dram);
+  EXPECT_NEAR(value(analytic, "estimate.dram_bytes.value"), dram, 0.08 * dram);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Machines, Analytic,
-    testing::Values(Settings{}, Settings{"flow.control=credits"},
-                    Settings{"dram.model=DDR4-2400", "l2.line=128", "l2.sectors=2"},
-                    Settings{"film_cache.write_policy=through", "l2.mode=perfect"}));
+INSTANTIATE_TEST_SUITE_P(Scenes, AnalyticEstimate,
+                         testing::Combine(testing::ValuesIn(kCommittedScenes), kMachines));
 
 // One unit of each kind and packets in the same order: the accesses of the timed machine, one by
 // one, are those that the model looks up.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <string>
@@ -231,18 +232,27 @@ class Interrupted : public BadInput, public testing::WithParamInterface<const ch
   static constexpr std::chrono::milliseconds kPoll{5};
   static constexpr int kMostPolls = 12'000;
 
-  /// Starts a long run and ends it by `signal_number` once it has opened its folder and `wait`
-  /// has passed.
-  [[nodiscard]] CommandResult interrupt_run(int signal_number, std::chrono::milliseconds wait) {
+  /// Starts a long run and ends it by `signal_number` once it has opened its folder and has used so
+  /// much processor time.
+  [[nodiscard]] CommandResult interrupt_run(int signal_number, std::chrono::milliseconds work) {
     const std::vector<std::string> long_run{"render.recursion_level=30",
                                             std::string("run.fidelity=") + GetParam()};
     return run_sheaf(run_arguments(committed_scene("sponza"), result_, long_run), [&](pid_t run) {
-      for (int i = 0; i < kMostPolls && !fs::exists(result_); ++i) {
-        std::this_thread::sleep_for(kPoll);
-      }
-      std::this_thread::sleep_for(wait);
+      const auto waits = [&] { return !fs::exists(result_) || processor_time(run) < work; };
+      for (int i = 0; i < kMostPolls && waits(); ++i) std::this_thread::sleep_for(kPoll);
       kill(run, signal_number);
     });
+  }
+
+  /// What a process has used so far, by fields 14 and 15 of its status (proc(5)).
+  static std::chrono::milliseconds processor_time(pid_t process) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+    std::string skipped;
+    for (int field = 1; field < 14; ++field) status >> skipped;
+    long user = 0;
+    long system = 0;
+    status >> user >> system;
+    return std::chrono::milliseconds(1000 * (user + system) / sysconf(_SC_CLK_TCK));
   }
 
   void expect_partial_result(const CommandResult& result) {
@@ -259,7 +269,7 @@ class Interrupted : public BadInput, public testing::WithParamInterface<const ch
 
 TEST_P(Interrupted, ByCtrlCKeepsAPartialResult) {
   using namespace std::chrono_literals;
-  const CommandResult result = interrupt_run(SIGINT, 1500ms);
+  const CommandResult result = interrupt_run(SIGINT, 3000ms);
   expect_partial_result(result);
   EXPECT_GT(read_stats(result_).at("rays.num_retired").at("value"), 0);
 }

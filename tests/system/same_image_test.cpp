@@ -39,7 +39,19 @@ Choices each_unit(const std::string& parameter, const std::vector<std::string>& 
   return choices;
 }
 
-/// Everything that must not matter.
+Choices each_cache(const std::string& parameter, const std::vector<std::string>& values) {
+  Choices choices;
+  for (const std::string& value : values) {
+    choices.emplace_back();
+    for (const char* cache :
+         {"node_cache", "triangle_cache", "attribute_cache", "texture_cache", "film_cache"}) {
+      choices.back().push_back(std::string(cache) + '.' + parameter + '=' + value);
+    }
+  }
+  return choices;
+}
+
+/// What must not matter: of every part of the machine its numbers, sizes, latencies and policies.
 std::vector<Choices> choices() {
   return {each("ray_cache.heuristic", {"none", "dir", "mdir(24)", "mdir(96)", "fastpos", "pos(1.0)",
                                        "opos", "ray5d(1)", "grid(4)"}),
@@ -75,8 +87,22 @@ std::vector<Choices> choices() {
           each("crossbar.response_width", {"0", "8"}),
           each("flow.tile_size", {"8", "16", "64"}),
           each("packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}),
+          // Intervals are slow on scattered rays: see TraversalSchemes.
           each("traversal.scheme", {"single", "masked", "omni"}),
-          each("run.fidelity", {"timed", "decoupled", "sampled", "analytic", "functional"})};
+          each_cache("capacity", {"1KiB", "64KiB"}),
+          each_cache("hit_latency", {"1", "20"}),
+          each("node_cache.mode", {"normal", "absent", "perfect"}),
+          each("triangle_cache.mode", {"normal", "absent", "perfect"}),
+          each("l2.mode", {"normal", "absent", "perfect"}),
+          each("l2.capacity", {"16KiB", "4MiB"}),
+          each_unit("latency", {"1", "200"}),
+          each("link.latency", {"1", "40"}),
+          each("link.memory_latency", {"1", "100"}),
+          each("dram.model", {"fixed", "DDR4-2400", "LPDDR5-6400"}),
+          // Mostly levels that simulate all of the frame in time. (`clocked` would take minutes
+          // with such latencies; clocked_test.cpp has it equal `timed`.)
+          each("run.fidelity", {"timed", "timed", "timed", "decoupled", "decoupled", "decoupled",
+                                "sampled", "analytic", "functional"})};
 }
 
 void expect_same(const Outcome& outcome, const Outcome& first, const Settings& settings) {
