@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstdint>
 #include <numeric>
 
@@ -70,6 +69,9 @@ class StallAccount {
     return std::accumulate(cycles_.begin(), cycles_.end(), Cycles{0});
   }
 
+  /// Whether time has never gone back, without which no cause's cycles can be believed.
+  [[nodiscard]] bool is_ordered() const noexcept { return is_ordered_; }
+
   /// For StatsTree::add_counters.
   template <typename F>
   void for_each(F&& f) const {
@@ -78,7 +80,7 @@ class StallAccount {
 
  private:
   void close(Cycles now) noexcept {
-    assert(now >= since_);
+    is_ordered_ = is_ordered_ && now >= since_;
     cycles_[static_cast<std::size_t>(cause_)] += now - since_;
     since_ = now;
   }
@@ -86,6 +88,7 @@ class StallAccount {
   std::array<Cycles, kNumStallCauses> cycles_{};
   Cycles since_ = 0;
   StallCause cause_ = StallCause::kIdle;
+  bool is_ordered_ = true;
 };
 
 }  // namespace sheaf

@@ -61,6 +61,7 @@ void check_spill(const Spill& spill) {
 
 template <typename Unit>
 void check_stalls(const std::string& name, const Unit& unit, Cycles end) {
+  require(unit.stalls().is_ordered(), name + ": stall account never goes back in time");
   require_equal(unit.stalls().total(), end, name + ": stall account sums to all cycles");
 }
 

@@ -11,12 +11,12 @@ namespace sheaf {
 SpillUnit::SpillUnit(const sc_core::sc_module_name& name, const Spec& spec,
                      TimedOut<LineRequest>& requests, ClockDomain& domain)
     : sc_module(name),
+      SteppingAgent(domain),
       in_bundles("in_bundles"),
       out_bundles("out_bundles"),
       in_lines("in_lines"),
       spec_(spec),
       requests_(requests),
-      domain_(domain),
       next_address_(spec.base) {
   inbox_.bind(domain, domain.add(*this));
 }
@@ -28,16 +28,7 @@ void SpillUnit::end_of_elaboration() {
   requests_.add_producer(inbox_);
 }
 
-Cycles SpillUnit::wake(Cycles now) {
-  for (;;) {
-    const Cycles next = act(now);
-    if (next >= domain_.horizon()) return next;
-    now = next;
-  }
-}
-
 Cycles SpillUnit::act(Cycles now) {
-  domain_.happened(now);
   take_lines(now);
   const bool sent = send_on(now);
   const bool moved = use_memory_port(now);

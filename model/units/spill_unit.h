@@ -6,6 +6,7 @@
 #include <systemc>
 #include <vector>
 
+#include "channels/stepping_agent.h"
 #include "channels/timed_channel.h"
 #include "memory/memory_messages.h"
 #include "sorting/spawn_bundle.h"
@@ -41,7 +42,7 @@ SHEAF_STATS(SpillStats, SHEAF_SPILL_COUNTERS);
 /// is empty; else it is written to memory, a line a cycle. As soon as the oldest bundle in memory
 /// fits, its place is taken and its lines are read, a line a cycle, before anything is written. A
 /// shader waits while a bundle is being written, which nothing holds up for ever.
-class SpillUnit final : public sc_core::sc_module, public Agent {
+class SpillUnit final : public sc_core::sc_module, public SteppingAgent {
  public:
   /// Bytes of a ray in memory: its 43 bytes (rtl_notes, symbol R) in whole words of 16.
   static constexpr Bytes kRayBytes = 48;
@@ -59,7 +60,6 @@ class SpillUnit final : public sc_core::sc_module, public Agent {
   sc_core::sc_port<TimedOut<SpawnBundle*>> out_bundles;
   sc_core::sc_port<TimedIn<LineResponse>> in_lines;
 
-  Cycles wake(Cycles now) override;
   [[nodiscard]] std::string stuck_reason() const override;
 
   [[nodiscard]] const SpillStats& stats() const { return stats_; }
@@ -84,7 +84,7 @@ class SpillUnit final : public sc_core::sc_module, public Agent {
   };
 
   void end_of_elaboration() override;
-  Cycles act(Cycles now);
+  Cycles act(Cycles now) override;
   void take_lines(Cycles now);
   bool send_on(Cycles now);
   bool use_memory_port(Cycles now);
@@ -100,7 +100,6 @@ class SpillUnit final : public sc_core::sc_module, public Agent {
 
   const Spec spec_;
   TimedOut<LineRequest>& requests_;
-  ClockDomain& domain_;
   Inbox inbox_;
   std::deque<Held> queue_;      ///< wait for the ray cache
   std::deque<Held> returning_;  ///< have a place in the queue, are being read

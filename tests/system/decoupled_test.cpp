@@ -51,6 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Settings{"link.depth=1", "link.latency=1", "link.memory_latency=1"},
                     Settings{"traversal_unit.count=5", "intersection_unit.count=3",
                              "shader_unit.count=2", "link.depth=2", "flow.control=credits"},
+                    Settings{"flow.control=spill", "flow.spill_queue=32"},
                     Settings{"node_cache.mshrs=1", "triangle_cache.mshrs=1", "l2.mshrs=1"},
                     Settings{"dram.model=HBM2-2000", "l2.capacity=64KiB", "film_cache.line=16"},
                     Settings{"shader_cache.cells=2", "shader_unit.count=2", "link.depth=1",

@@ -48,6 +48,16 @@ TEST(StallAccount, SwitchingToTheSameCauseChangesNothing) {
   EXPECT_EQ(account.cycles(StallCause::kBusy), 10U);
 }
 
+TEST(StallAccount, TellsWhetherTimeWentBack) {
+  StallAccount account;
+  account.switch_to(StallCause::kBusy, 10);
+  account.switch_to(StallCause::kIdle, 10);
+  EXPECT_TRUE(account.is_ordered());
+  account.switch_to(StallCause::kBusy, 9);
+  account.finish(20);
+  EXPECT_FALSE(account.is_ordered());
+}
+
 TEST(StallAccount, CausesSumToTheRunWhateverTheSwitches) {
   Random random(7);
   StallAccount account;
