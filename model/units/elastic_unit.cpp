@@ -92,9 +92,7 @@ Cycles ElasticUnit::accept_inputs(Cycles now) {
     }
     next = std::min(next, own->lines.next_arrival());
   }
-  if (!awaited && schedule_.all_done() && (flushing_ || is_quiet()))
-    next = std::min(next, flush_next(now));
-  return next;
+  return std::min(next, flush_if_due(now));
 }
 
 // What it does may let other units act earlier than was known.
@@ -209,8 +207,15 @@ void ElasticUnit::end_chain(int number, std::uint64_t record, Cycles now) {
   context.free_at = now + layout_.streams[stream_].turnaround;
   ++num_free_;
   schedule_.chain_ended(chain, record, now);
+  inbox_.set_next(std::min(inbox_.next(), flush_if_due(now)));
   ReplayChain* const next = schedule_.next_waiting(stream_);
   if (next != nullptr) begin(number, *next, now);
+}
+
+Cycles ElasticUnit::flush_if_due(Cycles now) {
+  const bool due =
+      !layout_.streams[stream_].awaited && schedule_.all_done() && (flushing_ || is_quiet());
+  return due ? flush_next(now) : kNever;
 }
 
 Cycles ElasticUnit::flush_next(Cycles now) {

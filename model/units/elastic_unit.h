@@ -69,6 +69,8 @@ class ElasticUnit final : public MultiContextUnit<ElasticUnit>, public ReplayedU
   bool leave_step(int context, Cycles now);
   bool begin_step(int context, Cycles now);
   void end_chain(int context, std::uint64_t record, Cycles now);
+  /// Once everything has been replayed, one modified line; returns when the next one can be.
+  Cycles flush_if_due(Cycles now);
   Cycles flush_next(Cycles now);
 
   const MemoryLayout& layout_;

@@ -19,7 +19,6 @@ ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors,
     stream.group = known.first->second;
     groups_[stream.group].streams.push_back(i);
     stream.awaited = layout.streams[i].awaited;
-    stream.done.resize(kRemembered);
   }
 }
 
@@ -36,14 +35,16 @@ void ReplaySchedule::begin() {
 }
 
 // So that half of kAhead at least lies before the cycle of the recording.
-void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) try {
+void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) {
   if (recorded + kAhead / 2 < read_until_) return;
   read_until_ = recorded + kAhead;
   for (Stream& stream : streams_) {
     stream.reader->read_until(read_until_, [&](ReplayChain& chain) { take_in(chain, now); });
   }
   advance_epoch(now);
-} catch (...) {
+}
+
+void ReplaySchedule::fail() {
   errors_.fail(std::current_exception());
   domain_.stop();
 }
@@ -55,8 +56,7 @@ bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) try {
   advance_epoch(now);
   return has;
 } catch (...) {
-  errors_.fail(std::current_exception());
-  domain_.stop();
+  fail();
   return false;
 }
 
@@ -73,28 +73,22 @@ void ReplaySchedule::await(ReplayChain& chain, Cycles now) {
     epoch_waiters_.push_back(&chain);
     return;
   }
-  Stream& source = streams_[start.cause_stream];
-  Done& done = source.done[start.cause_record % kRemembered];
-  if (done.record == start.cause_record) {
-    const Cycles at = start.cause_ended ? done.chain : done.step;
-    if (at != kNever) return arrive(chain, at, now);
-  } else if (done.record != kNoRecord && done.record > start.cause_record) {
-    return arrive(chain, 0, now);  // so long ago that a later record has taken its place
-  } else {
-    done = {};
-    done.record = start.cause_record;
-  }
-  chain.next_waiter = std::exchange(done.waiters, &chain);
+  StepWindow& steps = streams_[start.cause_stream].steps;
+  if (steps.is_past(start.cause_record)) return arrive(chain, 0, now);
+  StepState& cause = steps.at(start.cause_record);
+  const Cycles at = start.cause_ended ? cause.chain_ended : cause.done;
+  if (at != kNever) return arrive(chain, at, now);
+  chain.next_waiter = std::exchange(cause.waiters, &chain);
 }
 
-void ReplaySchedule::tell_waiters(Done& done, bool ended, Cycles now) {
-  ReplayChain* chain = std::exchange(done.waiters, nullptr);
+void ReplaySchedule::tell_waiters(StepState& step, bool ended, Cycles now) {
+  ReplayChain* chain = std::exchange(step.waiters, nullptr);
   while (chain != nullptr) {
     ReplayChain* const next = chain->next_waiter;
     if (chain->start.cause_ended == ended) {
       arrive(*chain, now, now);
     } else {
-      chain->next_waiter = std::exchange(done.waiters, chain);
+      chain->next_waiter = std::exchange(step.waiters, chain);
     }
     chain = next;
   }
@@ -140,34 +134,42 @@ ReplayChain* ReplaySchedule::next_waiting(std::size_t stream) {
   return chain;
 }
 
-void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context, Cycles now) {
-  Stream& stream = streams_[chain.stream];
-  const std::uint64_t record = chain.steps[chain.next].number;
-  Done& done = stream.done[record % kRemembered];
-  ReplayChain* const waiters = done.record == record ? done.waiters : nullptr;
-  done = {record, now, kNever, &unit, static_cast<std::uint8_t>(context), waiters};
-  tell_waiters(done, false, now);
+void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context,
+                               Cycles now) try {
+  StepState& step = streams_[chain.stream].steps.at(chain.steps[chain.next].number);
+  step.done = now;
+  step.unit = &unit;
+  step.context = static_cast<std::uint8_t>(context);
+  tell_waiters(step, false, now);
+} catch (...) {
+  fail();
 }
 
-void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) {
-  const Cycles recorded = chain.steps[chain.next].record.cycle;
-  streams_[chain.stream].reader->leave_step(chain);
-  read_ahead(recorded, now);
+void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) try {
+  Stream& stream = streams_[chain.stream];
+  const ReplayStep& left = chain.steps[chain.next];
+  stream.steps.at(left.number).left = true;
+  stream.reader->leave_step(chain);
+  read_ahead(left.record.cycle, now);
+} catch (...) {
+  fail();
 }
 
 void ReplaySchedule::chain_ended(ReplayChain& chain, std::uint64_t record, Cycles now) {
   Stream& stream = streams_[chain.stream];
-  Done& done = stream.done[record % kRemembered];
-  if (done.record == record) {
-    done.chain = now;
-    tell_waiters(done, true, now);
+  if (!stream.steps.is_past(record)) {
+    StepState& last = stream.steps.at(record);
+    last.chain_ended = now;
+    tell_waiters(last, true, now);
   }
   // A caller waits for its answer.
   const ChainStart start = chain.start;
   if (start.cause_stream != AccessCause::kAllEarlier && !start.cause_ended) {
-    const Done& call = streams_[start.cause_stream].done[start.cause_record % kRemembered];
-    if (call.record == start.cause_record && call.unit != nullptr) {
-      call.unit->answered(call.context, call.record, now + layout_.answer_latency);
+    StepWindow& steps = streams_[start.cause_stream].steps;
+    const bool has_caller = !steps.is_past(start.cause_record);
+    const StepState call = has_caller ? steps.at(start.cause_record) : StepState{};
+    if (call.unit != nullptr) {
+      call.unit->answered(call.context, start.cause_record, now + layout_.answer_latency);
     }
   }
   chains_.release(&chain);

@@ -11,6 +11,7 @@
 
 #include "channels/clock_domain.h"
 #include "units/replay_chain.h"
+#include "units/step_window.h"
 
 namespace sheaf {
 
@@ -76,27 +77,16 @@ class ReplaySchedule final : public Agent {
   [[nodiscard]] std::size_t agent() const { return agent_; }
 
  private:
-  /// Steps that are remembered in each stream; what lies further back is long done.
-  static constexpr std::size_t kRemembered = std::size_t{1} << 18;
-  /// Cycles of the recording that are read ahead: fewer steps than can be remembered, more than lie
+  /// Cycles of the recording that are read ahead: fewer steps than are remembered, more than lie
   /// between a chain's beginning and that of what it waits for.
   static constexpr Cycles kAhead = Cycles{1} << 15;
   static constexpr std::uint64_t kNoEpoch = ChainReader::kNoEpoch;
-  static constexpr std::uint64_t kNoRecord = ~std::uint64_t{0};
-  struct Done {
-    std::uint64_t record = kNoRecord;
-    Cycles step = kNever;          ///< when the step was done
-    Cycles chain = kNever;         ///< when the chain that it ends was
-    ReplayedUnit* unit = nullptr;  ///< which did it
-    std::uint8_t context = 0;
-    ReplayChain* waiters = nullptr;  ///< for either, linked by their `next_waiter`
-  };
   struct Stream {
     ReplayedUnit* unit = nullptr;
     std::unique_ptr<ChainReader> reader;
     std::size_t group = 0;
     bool awaited = true;
-    std::vector<Done> done;                         ///< by record number modulo kRemembered
+    StepWindow steps;
     std::map<std::uint64_t, std::uint64_t> epochs;  ///< chains not ended yet, by epoch
   };
   struct Arrival {
@@ -114,9 +104,10 @@ class ReplaySchedule final : public Agent {
   };
 
   void read_ahead(Cycles recorded, Cycles now);
+  void fail();
   void take_in(ReplayChain& chain, Cycles now);
   void await(ReplayChain& chain, Cycles now);
-  void tell_waiters(Done& done, bool ended, Cycles now);
+  void tell_waiters(StepState& step, bool ended, Cycles now);
   void arrive(ReplayChain& chain, Cycles done, Cycles now);
   void place(const Arrival& arrival);
   [[nodiscard]] std::uint64_t first_epoch(const Stream& stream) const;

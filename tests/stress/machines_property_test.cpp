@@ -9,7 +9,6 @@
 #include "generators.h"
 #include "stability/covering_array.h"
 #include "stability/machine_run.h"
-#include "stability/shaded_mesh.h"
 
 namespace sheaf::stability {
 namespace {
@@ -25,25 +24,6 @@ void expect_like_untimed(const MachineScene& scene) {
 RC_GTEST_PROP(MachinesProperty, PictureAndRaysAreThoseOfTheUntimedPipeline, ()) {
   static const MachineScene scene(1);
   expect_like_untimed(scene);
-}
-
-/// Every mixture of mirror, glass and lamp, with none to two lights.
-Scene any_scene() {
-  Material material;
-  material.mirror_weight = 0.25F * static_cast<float>(*rc::gen::inRange(0, 5));
-  material.transmission = (1.0F - material.mirror_weight) * *rc::gen::element(0.0F, 0.5F, 1.0F);
-  material.diffuse_weight = 1.0F - material.mirror_weight - material.transmission;
-  material.emission = *rc::gen::element(Vec3(0.0F), Vec3(1.0F, 1e-30F, 1e30F));
-  Scene scene = scene_of(any_mesh(), material);
-  const int num_lights = *rc::gen::inRange(0, 3);
-  for (int i = 0; i < num_lights; ++i) {
-    Light light;
-    light.position = any_point();
-    light.intensity = Vec3(10.0F);
-    scene.lights.push_back(light);
-  }
-  scene.background = Vec3(0.3F, 0.4F, 0.5F);
-  return scene;
 }
 
 RC_GTEST_PROP(MachinesProperty, OnAnySceneTheSame, ()) {

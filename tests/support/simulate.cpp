@@ -15,6 +15,7 @@
 #include "config/read_config.h"
 #include "report/stats_json.h"
 #include "scene/load_gltf.h"
+#include "scene/scene_needs.h"
 #include "system/clocked_machine.h"
 #include "system/estimate_report.h"
 #include "system/functional_pipeline.h"
@@ -37,6 +38,11 @@ PreparedScene prepare(const std::filesystem::path& file, const Config& config) {
     options.reflectance = static_cast<float>(*config.scene.reflectance);
   }
   return {load_scene(file, options).scene, config};
+}
+
+Scene with_needs(Scene scene) {
+  scene.needs = make_needs(scene);
+  return scene;
 }
 
 std::string systemc_complaints;
@@ -174,6 +180,11 @@ TestScene::TestScene(const std::filesystem::path& file, Settings base)
     : base_(std::move(base)),
       config_(resolve_config({}, base_)),
       prepared_(prepare(file, config_)) {}
+
+TestScene::TestScene(Scene scene, Settings base)
+    : base_(std::move(base)),
+      config_(resolve_config({}, base_)),
+      prepared_(with_needs(std::move(scene)), config_) {}
 
 Outcome TestScene::run(const Settings& settings) const {
   Settings all = base_;

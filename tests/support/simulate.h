@@ -37,6 +37,8 @@ class TestScene {
   /// `base` holds for every run. What the prepared scene depends on (camera, lights, materials,
   /// tree, size of the image, format of the film) can be set only here.
   explicit TestScene(const std::filesystem::path& file, Settings base = {});
+  /// A scene that was made and not loaded; its needs are found out here.
+  explicit TestScene(Scene scene, Settings base = {});
 
   /// Simulates with `settings` on top of the base.
   [[nodiscard]] Outcome run(const Settings& settings = {}) const;
