@@ -9,6 +9,7 @@
 #include <istream>
 #include <memory>
 
+#include "base/huge_pages.h"
 #include "kdtree/tree_cache.h"
 
 namespace sheaf {
@@ -52,7 +53,7 @@ template <typename T>
 bool read_values(std::istream& file, std::uint64_t count, std::vector<T>& values,
                  Checksum& checksum) {
   constexpr std::uint64_t kPiece = 1U << 15U;
-  values.reserve(count);
+  reserve_on_huge_pages(values, count);
   while (values.size() < count) {
     const std::size_t begin = values.size();
     values.resize(std::min(count, begin + kPiece));
