@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/errors.h"
+#include "base/huge_pages.h"
 #include "kdtree/event_sort.h"
 #include "kdtree/mesh_view.h"
 #include "kdtree/parallel_build.h"
@@ -104,8 +105,8 @@ KdTree build_kd_tree(std::span<const Vec3> positions,
   } else {
     // More than most trees need. What stays unused is never touched and so takes no memory, while
     // growing step by step would hold two copies of the tree at once.
-    tree.nodes.reserve(12 * num_hittable + 1);
-    tree.leaf_triangles.reserve(12 * num_hittable);
+    reserve_on_huge_pages(tree.nodes, 12 * num_hittable + 1);
+    reserve_on_huge_pages(tree.leaf_triangles, 12 * num_hittable);
     SubtreeBuilder builder(mesh, costs, max_depth);
     SplitEvent* const memory = builder.root_arena().allocate(room);
     builder.build(make_root(mesh, tree.bounds, num_hittable, memory), tree);

@@ -40,13 +40,18 @@ class KdNode {
 };
 static_assert(sizeof(KdNode) == 8);
 
-/// Node 0 is the root; there is always at least one node. A triangle that only touches a split
-/// plane stands on its own side alone, so a ray that lies in the plane must visit both children.
+/// Node 0 is the root; there is always at least one node. Nodes stand depth first, an inner node
+/// before its left and that before its right subtree; the lists of the leaves stand in the same
+/// order. A triangle that only touches a split plane stands on its own side alone, so a ray that
+/// lies in the plane must visit both children.
 struct KdTree {
   std::vector<KdNode> nodes;
   std::vector<std::uint32_t> leaf_triangles;  ///< primitive numbers, ascending within a leaf
   Box bounds;                                 ///< of all triangles
   int depth = 0;                              ///< inner nodes on the longest path; <= kMaxKdDepth
+
+  /// Empty ones included: every inner node has two children.
+  [[nodiscard]] std::size_t num_leaves() const { return (nodes.size() + 1) / 2; }
 };
 
 /// The deepest tree that builders make and that traversal stacks must hold.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "kdtree/tree_output.h"
 
 namespace sheaf {
@@ -162,8 +163,8 @@ void build_in_parallel(const MeshView& mesh, const SahCosts& costs, int max_dept
   std::size_t num_nodes = 0;
   std::size_t num_entries = 0;
   count_output(*root_job, num_nodes, num_entries);
-  tree.nodes.reserve(num_nodes);
-  tree.leaf_triangles.reserve(num_entries);
+  reserve_on_huge_pages(tree.nodes, num_nodes);
+  reserve_on_huge_pages(tree.leaf_triangles, num_entries);
   join(std::move(root_job), tree);
 }
 

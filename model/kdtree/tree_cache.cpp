@@ -52,16 +52,6 @@ class Hash {
   std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
 
-std::optional<std::string> read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) return {};
-  std::string bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, file.tellg())), '\0');
-  file.seekg(0);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file) return {};
-  return bytes;
-}
-
 struct KeptFile {
   fs::path path;
   fs::file_time_type used;
@@ -110,12 +100,11 @@ KdTree TreeCache::get(std::span<const Vec3> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const KdBuildOptions& options) const {
   const fs::path file = file_of(positions, triangles, options);
-  if (const std::optional<std::string> bytes = read_file(file)) {
-    if (std::optional<KdTree> tree = tree_from_bytes(*bytes, triangles.size())) {
-      std::error_code read_only;
-      fs::last_write_time(file, fs::file_time_type::clock::now(), read_only);
-      return *std::move(tree);
-    }
+  std::ifstream kept(file, std::ios::binary);
+  if (std::optional<KdTree> tree = read_tree(kept, triangles.size())) {
+    std::error_code read_only;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), read_only);
+    return *std::move(tree);
   }
   KdTree tree = build_kd_tree(positions, triangles, options);
   keep(tree, file);

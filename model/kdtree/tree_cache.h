@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,9 +50,9 @@ class TreeCache {
   std::uintmax_t limit_;
 };
 
-/// A tree as bytes, and back; none if the bytes are not such a tree over `num_triangles` triangles.
+/// A tree as bytes, and back; none if the rest of `file` is not such a tree over `num_triangles`
+/// triangles.
 [[nodiscard]] std::string to_bytes(const KdTree& tree);
-[[nodiscard]] std::optional<KdTree> tree_from_bytes(std::string_view bytes,
-                                                    std::uint64_t num_triangles);
+[[nodiscard]] std::optional<KdTree> read_tree(std::istream& file, std::uint64_t num_triangles);
 
 }  // namespace sheaf

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "base/errors.h"
+#include "base/huge_pages.h"
 #include "scene/camera_setup.h"
 #include "scene/gltf_camera.h"
 #include "scene/gltf_document.h"
@@ -34,11 +35,11 @@ Vec3 center(const Box& box) {
 /// Grown step by step, the arrays would need twice their memory for a while. Room for vertices that
 /// turn out to be shared is never touched.
 void reserve(Scene& scene, const GeometryPlan& plan) {
-  scene.triangles.reserve(plan.triangles);
-  scene.triangle_material.reserve(plan.triangles);
-  scene.positions.reserve(plan.max_vertices);
-  scene.normals.reserve(plan.max_vertices);
-  if (!scene.textures.empty()) scene.uvs.reserve(plan.max_vertices);
+  reserve_on_huge_pages(scene.triangles, plan.triangles);
+  reserve_on_huge_pages(scene.triangle_material, plan.triangles);
+  reserve_on_huge_pages(scene.positions, plan.max_vertices);
+  reserve_on_huge_pages(scene.normals, plan.max_vertices);
+  if (!scene.textures.empty()) reserve_on_huge_pages(scene.uvs, plan.max_vertices);
 }
 
 void read_geometry(Document& document, const PlacedNodes& placed, const SceneLoadOptions& options,

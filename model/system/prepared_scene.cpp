@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "base/huge_pages.h"
 #include "image/film.h"
 #include "kdtree/build.h"
 
@@ -22,7 +23,7 @@ KdTree make_tree(const Scene& scene, const KdTreeSpec& spec, const TreeCache* tr
 
 std::vector<TriangleRecord> make_records(const Scene& scene) {
   std::vector<TriangleRecord> records;
-  records.reserve(scene.triangles.size());
+  reserve_on_huge_pages(records, scene.triangles.size());
   for (const auto& corners : scene.triangles) {
     records.push_back(
         {scene.positions[corners[0]], scene.positions[corners[1]], scene.positions[corners[2]]});

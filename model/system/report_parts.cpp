@@ -8,7 +8,6 @@
 #include <array>
 #include <cctype>
 
-#include "kdtree/kd_stats.h"
 #include "memory/dram/channel_stats.h"
 #include "memory/dram/dram_report.h"
 #include "memory/l2_cache.h"
@@ -85,11 +84,10 @@ void report_scene(const PreparedScene& scene, const BuildPlan& plan, StatsTree& 
   stats.add("scene", SceneValues::vertices, scene.scene.positions.size());
   stats.add("scene", SceneValues::materials, scene.scene.materials.size());
   stats.add("scene", SceneValues::lights, scene.scene.lights.size());
-  const KdStats tree = measure_kd_tree(scene.tree, 1.0, 1.0);
-  stats.add("kdtree", KdTreeValues::nodes, tree.num_nodes);
-  stats.add("kdtree", KdTreeValues::leaves, tree.num_leaves);
-  stats.add("kdtree", KdTreeValues::references, tree.num_references);
-  stats.add("kdtree", KdTreeValues::depth, static_cast<std::uint64_t>(tree.depth));
+  stats.add("kdtree", KdTreeValues::nodes, scene.tree.nodes.size());
+  stats.add("kdtree", KdTreeValues::leaves, scene.tree.num_leaves());
+  stats.add("kdtree", KdTreeValues::references, scene.tree.leaf_triangles.size());
+  stats.add("kdtree", KdTreeValues::depth, static_cast<std::uint64_t>(scene.tree.depth));
   stats.add("memory", MemoryValues::footprint, scene.memory.total_size());
   for (const auto& [what, why] : plan.left_out) {
     std::string name = what;

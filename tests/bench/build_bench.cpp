@@ -16,9 +16,9 @@
 #include "bench/medians.h"
 #include "image/file_output.h"
 #include "kdtree/build.h"
-#include "kdtree/kd_stats.h"
 #include "report/plot.h"
 #include "scene/load_gltf.h"
+#include "support/kd_stats.h"
 
 namespace sheaf::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "kdtree/kd_stats.h"
 #include "meshes.h"
+#include "support/kd_stats.h"
 #include "tree_checks.h"
 
 namespace sheaf::test {

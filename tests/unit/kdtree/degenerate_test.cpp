@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "kdtree/kd_stats.h"
 #include "meshes.h"
+#include "support/kd_stats.h"
 #include "tree_checks.h"
 
 namespace sheaf::test {

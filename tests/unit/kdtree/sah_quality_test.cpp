@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "kdtree/kd_stats.h"
 #include "meshes.h"
+#include "support/kd_stats.h"
 #include "tree_checks.h"
 
 namespace sheaf::test {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "base/random.h"
 
@@ -28,6 +29,11 @@ struct Soup {
     for (std::uint32_t i = 0; i < count; ++i) triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
 };
+
+std::optional<KdTree> from_bytes(const std::string& bytes, std::uint64_t num_triangles) {
+  std::istringstream file(bytes);
+  return read_tree(file, num_triangles);
+}
 
 bool same(const KdTree& a, const KdTree& b) {
   const auto equal = [](const auto& x, const auto& y) {
@@ -112,33 +118,62 @@ TEST_F(TreeCacheFolder, BuildsAnewWhatIsDamagedAndMendsIt) {
 TEST(TreeBytes, AreRefusedWithAnyByteChangedOrMissing) {
   const Soup soup(6);
   const std::string whole = to_bytes(build_kd_tree(soup.positions, soup.triangles));
-  ASSERT_TRUE(tree_from_bytes(whole, 6));
+  ASSERT_TRUE(from_bytes(whole, 6));
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string changed = whole;
     changed[i] = static_cast<char>(changed[i] ^ 0x10);
-    EXPECT_FALSE(tree_from_bytes(changed, 6)) << i;
-    EXPECT_FALSE(tree_from_bytes(whole.substr(0, i), 6)) << i;
+    EXPECT_FALSE(from_bytes(changed, 6)) << i;
+    EXPECT_FALSE(from_bytes(whole.substr(0, i), 6)) << i;
   }
-  EXPECT_FALSE(tree_from_bytes(whole + '\0', 6));
+  EXPECT_FALSE(from_bytes(whole + '\0', 6));
+}
+
+bool refused(std::vector<KdNode> nodes, std::vector<std::uint32_t> triangles) {
+  return !from_bytes(to_bytes({std::move(nodes), std::move(triangles), {}, 0}), 3);
 }
 
 TEST(TreeBytes, AreRefusedIfAWalkCouldLeaveTheTree) {
-  const auto refused = [](std::vector<KdNode> nodes, std::vector<std::uint32_t> triangles) {
-    return !tree_from_bytes(to_bytes({std::move(nodes), std::move(triangles), {}, 0}), 3);
+  const KdNode first = KdNode::leaf(0, 1);
+  const KdNode second = KdNode::leaf(1, 1);
+  EXPECT_FALSE(refused({KdNode::inner(0, 1.0F, 2), first, second}, {2, 2}));
+  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 3), first, second}, {2, 2}));
+  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 0), first, second}, {2, 2}));
+  EXPECT_TRUE(refused({KdNode::inner(0, NAN, 2), first, second}, {2, 2}));
+  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 2), first, second}, {2, 3}));
+  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 2), first, second}, {2}));
+  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 2), first}, {2}));
+}
+
+TEST(TreeBytes, AreRefusedIfTheTreeIsTooDeep) {
+  const auto spine = [](std::uint32_t depth) {
+    std::vector<KdNode> nodes;
+    for (std::uint32_t i = 0; i < depth; ++i) {
+      nodes.push_back(KdNode::inner(0, 1.0F, 2 * depth - i));
+    }
+    nodes.resize(2 * depth + 1, KdNode::leaf(0, 0));
+    return nodes;
   };
-  const KdNode leaf = KdNode::leaf(0, 1);
-  EXPECT_FALSE(refused({KdNode::inner(0, 1.0F, 2), leaf, leaf}, {2}));
-  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 3), leaf, leaf}, {2}));
-  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 0), leaf, leaf}, {2}));
-  EXPECT_TRUE(refused({KdNode::inner(0, NAN, 2), leaf, leaf}, {2}));
-  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 2), leaf, leaf}, {3}));
-  EXPECT_TRUE(refused({KdNode::inner(0, 1.0F, 2), leaf, KdNode::leaf(1, 1)}, {2}));
-  std::vector<KdNode> deep;  // a spine of kMaxKdDepth + 1 inner nodes
-  for (std::uint32_t i = 0; i <= kMaxKdDepth; ++i) {
-    deep.push_back(KdNode::inner(0, 1.0F, 2 * kMaxKdDepth + 2 - i));
-  }
-  for (int i = 0; i < kMaxKdDepth + 2; ++i) deep.push_back(leaf);
-  EXPECT_TRUE(refused(deep, {2}));
+  EXPECT_FALSE(refused(spine(kMaxKdDepth), {}));
+  EXPECT_TRUE(refused(spine(kMaxKdDepth + 1), {}));
+}
+
+// Fibonacci's number of ways lead down a tree whose right children are all part of the left ones.
+TEST(TreeBytes, AreRefusedIfSubtreesAreShared) {
+  std::vector<KdNode> nodes;
+  for (std::uint32_t i = 0; i < 62; ++i) nodes.push_back(KdNode::inner(0, 1.0F, i + 2));
+  nodes.resize(64, KdNode::leaf(0, 0));
+  EXPECT_TRUE(refused(nodes, {}));
+}
+
+TEST(TreeBytes, AreRefusedIfLeafListsAreOutOfOrder) {
+  const KdNode root = KdNode::inner(0, 1.0F, 2);
+  const KdNode first = KdNode::leaf(0, 1);
+  const KdNode second = KdNode::leaf(1, 1);
+  EXPECT_FALSE(refused({root, first, second}, {0, 2}));
+  EXPECT_TRUE(refused({root, second, first}, {0, 2}));
+  EXPECT_TRUE(refused({root, first, first}, {0, 2}));
+  EXPECT_TRUE(refused({root, first, second}, {0, 2, 1}));
+  EXPECT_TRUE(refused({root, first, second, KdNode::leaf(2, 0)}, {0, 2}));
 }
 
 TEST_F(TreeCacheFolder, RemovesWhatWasUsedLongestAgo) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kdtree/kd_stats.h"
+#include "support/kd_stats.h"
 
 #include <algorithm>
 
