@@ -33,7 +33,11 @@ _EXIT_MEANINGS = {
     3: "scene refused",
     4: "result not written",
     5: "machine stuck",
+    6: "trace refused",
 }
+# These say something of the machine the run was on, not of the point.
+_UNWRITTEN = 4
+_NO_MEMORY = ("out of memory", "failed to map segment")  # model/base/out_of_memory.h; the linker
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,10 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one attempt; `kind` is done, refused, memory, timeout, signal or cancelled."""
+    """What became of one attempt; `kind` is done, refused, memory, failed, timeout, signal or cancelled.
+
+    Only `refused` belongs to the point, which would be refused again wherever it ran.
+    """
 
     id: str
     kind: str
@@ -148,7 +155,7 @@ def _simulate(job: Job, work: Path, running: MutableMapping[str, int]) -> Outcom
                 process_group=0,  # Ctrl-C in a terminal is the sweep's to handle
             )
     except OSError as error:
-        return Outcome(job.id, "refused", f"{words[0]}: {error.strerror}", 127)
+        return Outcome(job.id, "failed", f"{words[0]}: {error.strerror}", 127)
     running[job.id] = process.pid
     try:
         late, usage = _wait(process, job)
@@ -197,8 +204,13 @@ def _judge(
     said = (work / "stderr").read_bytes()[-_MESSAGE_BYTES:].decode(errors="replace").strip()
     reason = _EXIT_MEANINGS.get(code, f"exit status {code}")
     last = said.splitlines()[-1].removeprefix("sheaf: ") if said else "no message"
-    # The simulator refuses what does not fit into memory; with more of it, it would not.
-    return outcome("memory" if "out of memory" in last else "refused", f"{reason}: {last}")
+    return outcome(_kind_of_failure(code, last), f"{reason}: {last}")
+
+
+def _kind_of_failure(code: int, message: str) -> str:
+    if any(words in message for words in _NO_MEMORY):
+        return "memory"
+    return "refused" if code in _EXIT_MEANINGS and code != _UNWRITTEN else "failed"
 
 
 def run_on_worker(job: Job) -> Outcome:
