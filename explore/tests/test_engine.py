@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import signal
@@ -19,6 +20,7 @@ from scene_maker import tiny_gltf
 
 from sheaf_explore.simulator import Simulator
 from sheaf_explore.store import Store
+from sheaf_explore.task import Job, run_point
 
 Write = Callable[[str], Path]
 HEAD = 'scenes = ["scene.glb"]\n'
@@ -147,6 +149,23 @@ def test_what_fails_for_want_of_room_or_a_library_is_tried_again(
         done = sweep(text)
         assert "result not written: out: no space left" in done.stderr
         assert starts(stand_in) == starts_so_far
+
+
+def test_a_simulator_that_cannot_be_watched_is_ended(
+    stand_in: Simulator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started = []
+
+    def no_handle(pid: int) -> int:
+        started.append(pid)
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+
+    monkeypatch.setattr(os, "pidfd_open", no_handle)
+    words = (str(stand_in.path), "run", "dram.latency=15")
+    outcome = run_point(Job("one", str(tmp_path / "out"), words, "{}", False, None, None))
+    assert (outcome.kind, outcome.message) == ("failed", "cannot be watched: Too many open files")
+    with pytest.raises(ProcessLookupError):  # so it was waited for, too
+        os.kill(started[0], 0)
 
 
 def test_a_crash_is_tried_again_and_can_succeed(sweep: Sweep, stand_in: Simulator) -> None:

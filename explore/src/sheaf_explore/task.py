@@ -159,28 +159,38 @@ def _simulate(job: Job, work: Path, running: MutableMapping[str, int]) -> Outcom
     running[job.id] = process.pid
     try:
         late, usage = _wait(process, job)
+    except OSError as error:
+        return Outcome(job.id, "failed", f"cannot be watched: {error.strerror}")
     finally:
         running.pop(job.id, None)
     return _judge(job, work, process.returncode, late, time.monotonic() - started, usage)
 
 
 def _wait(process: subprocess.Popen[bytes], job: Job) -> tuple[bool, resource.struct_rusage]:
-    """Waits without polling; kills the process if it takes longer than it may."""
-    if job.memory is not None:
-        with contextlib.suppress(ProcessLookupError):
-            resource.prlimit(process.pid, resource.RLIMIT_AS, (job.memory, job.memory))
-    handle = os.pidfd_open(process.pid)
+    """Waits for the process, and kills it if it takes longer than it may or cannot be watched."""
+    in_time = False
+    try:
+        if job.memory is not None:
+            with contextlib.suppress(ProcessLookupError):
+                resource.prlimit(process.pid, resource.RLIMIT_AS, (job.memory, job.memory))
+        in_time = _ends_within(process.pid, job.seconds)
+    finally:
+        if not in_time:
+            os.kill(process.pid, signal.SIGKILL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    return not in_time, usage
+
+
+def _ends_within(pid: int, seconds: float | None) -> bool:
+    """Waits without polling for a child to end; False if it has not by then."""
+    handle = os.pidfd_open(pid)
     try:
         poll = select.poll()
         poll.register(handle, select.POLLIN)
-        late = not poll.poll(None if job.seconds is None else job.seconds * 1000)
-        if late:
-            process.kill()
-        _, status, usage = os.wait4(process.pid, 0)
+        return bool(poll.poll(None if seconds is None else seconds * 1000))
     finally:
         os.close(handle)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return late, usage
 
 
 def _judge(
