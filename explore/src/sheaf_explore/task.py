@@ -55,9 +55,10 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one attempt; `kind` is done, refused, memory, failed, timeout, signal or cancelled.
+    """What became of one attempt.
 
-    Only `refused` belongs to the point, which would be refused again wherever it ran.
+    `kind` is done, refused, memory, failed, timeout, signal or cancelled. Only `refused` belongs to
+    the point, which would be refused again wherever it ran.
     """
 
     id: str
