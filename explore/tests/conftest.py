@@ -45,6 +45,8 @@ case $latency in
   16) [ -e "$here/second" ] || { touch "$here/second"; kill -9 $$; } ;;
   17) exec true ;;
   18) sleep 0.2 ;;
+  31) echo "sheaf: out: no space left" >&2; exit 4 ;;
+  32) echo "sheaf: error while loading shared libraries: lib.so" >&2; exit 127 ;;
 esac
 mkdir -p "$out"
 cat > "$out/stats.json" <<END

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import signal
@@ -15,9 +16,11 @@ from pathlib import Path
 
 import pytest
 from conftest import Explore, Finished
+from scene_maker import tiny_gltf
 
 from sheaf_explore.simulator import Simulator
 from sheaf_explore.store import Store
+from sheaf_explore.task import Job, run_point
 
 Write = Callable[[str], Path]
 HEAD = 'scenes = ["scene.glb"]\n'
@@ -116,6 +119,53 @@ def test_a_point_out_of_memory_fails_and_is_tried_again(
         assert done.returncode == 1
         assert "out of memory" in done.stderr
     assert [r["kind"] for r in Store(tmp_path / "out").journal()] == ["memory", "memory"]
+
+
+def test_a_scene_that_needs_more_memory_runs_once_the_limit_is_raised(
+    explore: Explore, sheaf: Path, tmp_path: Path
+) -> None:
+    document = json.loads(tiny_gltf())
+    [mesh] = document["meshes"]
+    mesh["primitives"] *= 400
+    document["nodes"] = [{"mesh": 0, "scale": [1 + i, 1, 1]} for i in range(400)]
+    document["scenes"] = [{"nodes": list(range(400))}]
+    (tmp_path / "large.gltf").write_text(json.dumps(document))
+    spec = tmp_path / "spec.toml"
+    text = 'scenes = ["large.gltf"]\n[set]\nimage = { width = 1, height = 1 }\n'
+    text += "render.recursion_level = 0\nkdtree.max_depth = 1\n"
+    for limit, status in (("60MiB", 1), ("4GiB", 0)):
+        spec.write_text(text + f'[limits]\nmemory = "{limit}"\n')
+        done = explore("sweep", spec, "--sheaf", sheaf, "--out", tmp_path / "out")
+        assert done.returncode == status, done.stderr
+        assert ("large.gltf: out of memory" in done.stderr) == (status == 1)
+    assert [r["kind"] for r in Store(tmp_path / "out").journal()] == ["memory", "done"]
+
+
+def test_what_fails_for_want_of_room_or_a_library_is_tried_again(
+    sweep: Sweep, stand_in: Simulator
+) -> None:
+    text = axis("dram.latency", [31, 32])
+    for starts_so_far in (2, 4):
+        done = sweep(text)
+        assert "result not written: out: no space left" in done.stderr
+        assert starts(stand_in) == starts_so_far
+
+
+def test_a_simulator_that_cannot_be_watched_is_ended(
+    stand_in: Simulator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started = []
+
+    def no_handle(pid: int) -> int:
+        started.append(pid)
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+
+    monkeypatch.setattr(os, "pidfd_open", no_handle)
+    words = (str(stand_in.path), "run", "dram.latency=15")
+    outcome = run_point(Job("one", str(tmp_path / "out"), words, "{}", False, None, None))
+    assert (outcome.kind, outcome.message) == ("failed", "cannot be watched: Too many open files")
+    with pytest.raises(ProcessLookupError):  # so it was waited for, too
+        os.kill(started[0], 0)
 
 
 def test_a_crash_is_tried_again_and_can_succeed(sweep: Sweep, stand_in: Simulator) -> None:

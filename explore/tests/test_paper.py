@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from conftest import Explore
 
 from sheaf_explore.errors import ExploreError
 from sheaf_explore.paper import answer, explain, grids, hardware, published, tables
@@ -256,10 +257,26 @@ def test_a_cell_says_how_far_it_is_from_the_paper() -> None:
     assert grids.compared(4.5, math.nan) == grids.Cell("4.50")
 
 
-@pytest.mark.parametrize("text", ["640", "640x0", "x480", "640x480x2", "-1x5"])
+@pytest.mark.parametrize("text", ["640", "x480", "640x480x2", "-1x5", "9" * 5000 + "x1"])
 def test_a_size_that_is_none_is_refused(text: str) -> None:
     with pytest.raises(ExploreError, match="expected WIDTHxHEIGHT"):
         parse_size(text)
+
+
+@pytest.mark.parametrize(
+    ("size", "key"),
+    [("99999x99999", "image."), ("640x16385", "image.height"), ("0x5", "image.width")],
+)
+def test_a_size_that_the_simulator_refuses_is_refused_before_anything_runs(
+    explore: Explore, sheaf: Path, tmp_path: Path, size: str, key: str
+) -> None:
+    words = ["paper", "--scenes", "dragon", "--size", size, "--out", tmp_path / "out"]
+    done = explore(*words, "--sheaf", sheaf)
+    assert done.returncode == 2
+    [line] = done.stderr.splitlines()
+    assert line.startswith(f"explore: --size {size}: ")
+    assert key in line and "16384" in line
+    assert not (tmp_path / "out").exists()
 
 
 def test_unknown_scenes_and_missing_files_are_refused(tmp_path: Path) -> None:
@@ -267,6 +284,16 @@ def test_unknown_scenes_and_missing_files_are_refused(tmp_path: Path) -> None:
         choose_scenes("dragon,lion", None, None)
     with pytest.raises(ExploreError, match="is no file"):
         choose_scenes("dragon", tmp_path / "sponza.glb", None)
+
+
+def test_the_page_names_the_whole_command_that_writes_it() -> None:
+    real = [Scene(f"{name} (real)", Path("x.glb"), name) for name in ("sponza", "dragon")]
+    plan = replace(PLAN, scenes=(*PLAN.scenes, *real), width=640, height=480)
+    command = "explore paper --sponza FILE --dragon FILE --docs explore/docs"
+    assert plan.command_line() == command
+    committed = (Path(__file__).parents[1] / "docs/paper.md").read_text()
+    assert f"    build/venv/bin/{command}\n" in committed
+    assert "--scenes dragon --size 64x48" in replace(PLAN, scenes=PLAN.scenes[:1]).command_line()
 
 
 def test_the_real_models_are_made_reflecting(tmp_path: Path) -> None:

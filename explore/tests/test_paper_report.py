@@ -67,6 +67,8 @@ def test_a_report_has_every_table_and_every_figure(made: Path) -> None:
 def test_a_page_of_documentation_has_its_images_and_whole_tables(made: Path) -> None:
     folder = made.parent / "docs"
     page = (folder / "paper.md").read_text()
+    names = ",".join(SCENES)
+    assert f"explore paper --scenes {names} --size 16x12 --docs explore/docs\n" in page
     images = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", page)
     assert len(images) >= 9
     assert all((folder / image).read_text().startswith("<svg") for image in images)

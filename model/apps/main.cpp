@@ -19,6 +19,7 @@
 #include "apps/stability_command.h"
 #include "apps/trace_command.h"
 #include "base/errors.h"
+#include "base/out_of_memory.h"
 #include "config/config_text.h"
 #include "energy/energy_report.h"
 #include "stats/counter_group.h"
@@ -206,8 +207,7 @@ int sc_main(int argc, char** argv) {
   } catch (const sheaf::Error& error) {
     return report_error(error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    return report_error(sheaf::ExitCode::kUsage,
-                        "out of memory; choose a smaller picture or scene");
+    return report_error(sheaf::ExitCode::kUsage, sheaf::kOutOfMemory);
   } catch (const std::exception& error) {
     return report_error(
         sheaf::ExitCode::kBug,

@@ -15,6 +15,7 @@
 
 #include "apps/parent_death.h"
 #include "base/errors.h"
+#include "base/out_of_memory.h"
 
 namespace sheaf {
 namespace {
@@ -52,7 +53,7 @@ ExitCode work_here(const std::function<std::vector<double>()>& work, std::FILE* 
   } catch (const Error& error) {
     return fail(error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    return fail(ExitCode::kUsage, "out of memory; choose a smaller picture or scene");
+    return fail(ExitCode::kUsage, kOutOfMemory);
   } catch (const std::exception& error) {
     return fail(ExitCode::kBug,
                 fmt::format("bug of the simulator, please report it: {}", error.what()));

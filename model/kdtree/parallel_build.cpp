@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/helper_threads.h"
 #include "base/huge_pages.h"
 #include "kdtree/tree_output.h"
 
@@ -155,8 +156,7 @@ void build_in_parallel(const MeshView& mesh, const SahCosts& costs, int max_dept
     }
   };
   {
-    std::vector<std::jthread> workers;
-    for (unsigned i = 1; i < threads; ++i) workers.emplace_back(work);
+    const std::vector<std::jthread> helpers = start_helpers(threads - 1, work);
     work();
   }
   queue.rethrow_failure();

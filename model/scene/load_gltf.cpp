@@ -13,6 +13,7 @@
 
 #include "base/errors.h"
 #include "base/huge_pages.h"
+#include "base/out_of_memory.h"
 #include "scene/camera_setup.h"
 #include "scene/gltf_camera.h"
 #include "scene/gltf_document.h"
@@ -196,7 +197,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const SceneLoadOptions
   } catch (const Refusal& refusal) {
     throw Error(ExitCode::kScene, fmt::format("{}: {}", file, printable(refusal.what())));
   } catch (const std::bad_alloc&) {
-    throw Error(ExitCode::kScene, fmt::format("{}: does not fit into memory", file));
+    throw Error(ExitCode::kScene, fmt::format("{}: {}", file, kOutOfMemory));
   }
 }
 

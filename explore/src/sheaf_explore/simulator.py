@@ -15,6 +15,7 @@ from functools import cached_property
 from pathlib import Path
 
 from sheaf_explore.errors import ExploreError
+from sheaf_explore.gltf_files import referred_files
 from sheaf_explore.parameters import Parameters, Value
 from sheaf_explore.spec import Source
 
@@ -31,16 +32,22 @@ def hash_file(path: Path) -> str:
 
 
 def hash_source(source: Source) -> str:
-    """SHA-256 of a scene or trace with every file that a .gltf refers to."""
+    """SHA-256 of a scene or trace with every file that a scene refers to."""
     own = hash_file(source.path)
-    if source.path.suffix.lower() != ".gltf":
+    parts = referred_files(source.path) if source.kind == "scene" else []
+    if not parts:
         return own
     digest = hashlib.sha256(own.encode())
-    text = source.path.read_text("utf-8", errors="replace")
-    for uri in sorted(set(re.findall(r'"uri"\s*:\s*"((?!data:)[^"]+)"', text))):
-        part = source.path.parent / uri
-        digest.update(f"{uri}\0{hash_file(part) if part.is_file() else ''}\0".encode())
+    for part in parts:
+        digest.update(f"{_hash_if_there(part)}\0".encode())
     return digest.hexdigest()
+
+
+def _hash_if_there(path: Path) -> str:
+    try:
+        return hash_file(path) if path.is_file() else ""
+    except (OSError, ValueError):  # no name of a file at all, or one that may not be read
+        return ""
 
 
 @dataclass(frozen=True)

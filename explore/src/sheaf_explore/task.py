@@ -33,7 +33,11 @@ _EXIT_MEANINGS = {
     3: "scene refused",
     4: "result not written",
     5: "machine stuck",
+    6: "trace refused",
 }
+# These say something of the machine the run was on, not of the point.
+_UNWRITTEN = 4
+_NO_MEMORY = ("out of memory", "failed to map segment")  # model/base/out_of_memory.h; the linker
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,11 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one attempt; `kind` is done, refused, memory, timeout, signal or cancelled."""
+    """What became of one attempt.
+
+    `kind` is done, refused, memory, failed, timeout, signal or cancelled. Only `refused` belongs to
+    the point, which would be refused again wherever it ran.
+    """
 
     id: str
     kind: str
@@ -148,32 +156,42 @@ def _simulate(job: Job, work: Path, running: MutableMapping[str, int]) -> Outcom
                 process_group=0,  # Ctrl-C in a terminal is the sweep's to handle
             )
     except OSError as error:
-        return Outcome(job.id, "refused", f"{words[0]}: {error.strerror}", 127)
+        return Outcome(job.id, "failed", f"{words[0]}: {error.strerror}", 127)
     running[job.id] = process.pid
     try:
         late, usage = _wait(process, job)
+    except OSError as error:
+        return Outcome(job.id, "failed", f"cannot be watched: {error.strerror}")
     finally:
         running.pop(job.id, None)
     return _judge(job, work, process.returncode, late, time.monotonic() - started, usage)
 
 
 def _wait(process: subprocess.Popen[bytes], job: Job) -> tuple[bool, resource.struct_rusage]:
-    """Waits without polling; kills the process if it takes longer than it may."""
-    if job.memory is not None:
-        with contextlib.suppress(ProcessLookupError):
-            resource.prlimit(process.pid, resource.RLIMIT_AS, (job.memory, job.memory))
-    handle = os.pidfd_open(process.pid)
+    """Waits for the process, and kills it if it takes longer than it may or cannot be watched."""
+    in_time = False
+    try:
+        if job.memory is not None:
+            with contextlib.suppress(ProcessLookupError):
+                resource.prlimit(process.pid, resource.RLIMIT_AS, (job.memory, job.memory))
+        in_time = _ends_within(process.pid, job.seconds)
+    finally:
+        if not in_time:
+            os.kill(process.pid, signal.SIGKILL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    return not in_time, usage
+
+
+def _ends_within(pid: int, seconds: float | None) -> bool:
+    """Waits without polling for a child to end; False if it has not by then."""
+    handle = os.pidfd_open(pid)
     try:
         poll = select.poll()
         poll.register(handle, select.POLLIN)
-        late = not poll.poll(None if job.seconds is None else job.seconds * 1000)
-        if late:
-            process.kill()
-        _, status, usage = os.wait4(process.pid, 0)
+        return bool(poll.poll(None if seconds is None else seconds * 1000))
     finally:
         os.close(handle)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return late, usage
 
 
 def _judge(
@@ -197,8 +215,13 @@ def _judge(
     said = (work / "stderr").read_bytes()[-_MESSAGE_BYTES:].decode(errors="replace").strip()
     reason = _EXIT_MEANINGS.get(code, f"exit status {code}")
     last = said.splitlines()[-1].removeprefix("sheaf: ") if said else "no message"
-    # The simulator refuses what does not fit into memory; with more of it, it would not.
-    return outcome("memory" if "out of memory" in last else "refused", f"{reason}: {last}")
+    return outcome(_kind_of_failure(code, last), f"{reason}: {last}")
+
+
+def _kind_of_failure(code: int, message: str) -> str:
+    if any(words in message for words in _NO_MEMORY):
+        return "memory"
+    return "refused" if code in _EXIT_MEANINGS and code != _UNWRITTEN else "failed"
 
 
 def run_on_worker(job: Job) -> Outcome:

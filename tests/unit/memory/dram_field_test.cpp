@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The common set-up beside DRAMsim3, Ramulator 2.1 and DRAMSys. What they give is from
-// rtl_notes/dram_comparison.md, which says how it was found.
+// The common set-up beside DRAMsim3, Ramulator 2.1 and DRAMSys, as re-created: the figures are not
+// their own output but of programs made after their sources, which are not kept here.
+// rtl_notes/dram_comparison.md says how they were found and what of them can be had again.
 
 #include <gtest/gtest.h>
 

@@ -9,18 +9,17 @@ from pathlib import Path
 
 from sheaf_explore.errors import Exit, ExploreError
 from sheaf_explore.paper.page import find, write_docs, write_page
-from sheaf_explore.paper.plan import Plan
+from sheaf_explore.paper.plan import Plan, STAND_INS
 from sheaf_explore.paper.runs import Scene, simulate, Workshop
 
-NAMES = ("dragon", "fairy", "newtree", "oldtree", "sponza")
 QUICK = (128, 96)  # pixels, for a look at the report; the numbers are not the paper's then
 _REFLECTING = (("scene.reflectance", 0.5),)  # as the paper made everything half a mirror
 
 
 def parse_size(text: str) -> tuple[int, int]:
     """Reads "640x480". Raises ExploreError."""
-    match = re.fullmatch(r"(\d+)[x×](\d+)", text.strip())
-    if match is None or "0" in match.groups():
+    match = re.fullmatch(r"([0-9]{1,9})[x×]([0-9]{1,9})", text.strip())
+    if match is None:
         raise ExploreError(f"--size {text!r}: expected WIDTHxHEIGHT, such as 640x480")
     return int(match[1]), int(match[2])
 
@@ -33,10 +32,10 @@ def _folder_of_scenes() -> Path:
 
 def choose_scenes(names: str, sponza: Path | None, dragon: Path | None) -> tuple[Scene, ...]:
     """The stand-ins asked for, and the paper's own models where they are given."""
-    chosen = [name.strip() for name in names.split(",")] if names else list(NAMES)
+    chosen = [name.strip() for name in names.split(",")] if names else list(STAND_INS)
     for name in chosen:
-        if name not in NAMES:
-            raise ExploreError(f"--scenes: no scene {name!r}; there are {', '.join(NAMES)}")
+        if name not in STAND_INS:
+            raise ExploreError(f"--scenes: no scene {name!r}; there are {', '.join(STAND_INS)}")
     folder = _folder_of_scenes()
     scenes = [Scene(name, folder / f"{name}.glb", name) for name in dict.fromkeys(chosen)]
     for name, path in (("sponza", sponza), ("dragon", dragon)):
@@ -49,7 +48,13 @@ def choose_scenes(names: str, sponza: Path | None, dragon: Path | None) -> tuple
 
 
 def make_paper(plan: Plan, shop: Workshop, out: Path, docs: Path | None) -> Exit:
-    """Runs what has no result yet and writes the report from all that has one."""
+    """Runs what has no result yet and writes the report from all that has one.
+
+    Raises ExploreError before anything runs if the simulator does not take the size.
+    """
+    refusal = shop.simulator.refusal({"image.width": plan.width, "image.height": plan.height})
+    if refusal is not None:
+        raise ExploreError(f"--size {plan.width}x{plan.height}: {refusal}")
     runs = list(dict.fromkeys(plan.all_runs()))
     results, result = simulate(runs, shop)
     if result.tally.interrupted:

@@ -17,6 +17,9 @@ from sheaf_explore.parameters import Value
 
 Settings = dict[str, Value]
 
+STAND_INS = ("dragon", "fairy", "newtree", "oldtree", "sponza")
+USUAL_SIZE = (640, 480)  # pixels
+
 HEURISTICS = ("none", "dir", "mdir(96)", "fastpos", "pos(1.0)", "opos")
 LEVELS = (1, 2, 3)
 PACKET_SIZES = (4, 8, 16, 32, 64)
@@ -225,3 +228,14 @@ class Plan:
             yield from (self.coherence(scene, SWAY_LEVEL, h) for h in POS_HEURISTICS)
         for scene in self.hardware_scenes():
             yield from (self.machine(scene, machine) for machine in self.machines())
+
+    def command_line(self) -> str:
+        """The command that makes these runs and a page of documentation of them."""
+        words = ["explore paper"]
+        stand_ins = [scene.name for scene in self.scenes if not scene.real]
+        if stand_ins != list(STAND_INS):
+            words.append(f"--scenes {','.join(stand_ins)}")
+        if (self.width, self.height) != USUAL_SIZE:
+            words.append(f"--size {self.width}x{self.height}")
+        words += [f"--{scene.stands_for} FILE" for scene in self.scenes if scene.real]
+        return " ".join([*words, "--docs explore/docs"])
