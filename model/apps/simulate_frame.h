@@ -25,6 +25,6 @@ struct FrameSimulation {
 
 /// Simulates at any fidelity, with progress on a terminal; fills the frame and the statistics.
 /// Returns true if the frame is complete. Once a process for what uses SystemC.
-bool simulate_frame(const FrameSimulation& simulation, Frame& frame, StatsTree& stats);
+bool simulate_frame(const FrameSimulation& given, Frame& frame, StatsTree& stats);
 
 }  // namespace sheaf

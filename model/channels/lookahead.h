@@ -33,9 +33,9 @@ class LinkMap {
 
  private:
   struct Link {
-    std::size_t from;
-    std::size_t to;
-    Cycles latency;
+    std::size_t from = 0;
+    std::size_t to = 0;
+    Cycles latency = 0;
     bool assumed = false;
   };
   [[nodiscard]] std::vector<Link> complete(std::size_t num_agents) const;

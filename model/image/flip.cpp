@@ -88,10 +88,10 @@ class Plane {
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
         double sum = 0;
-        for (int i = -radius; i <= radius; ++i) {
-          const int at_x = std::clamp(x + i * dx, 0, width_ - 1);
-          const int at_y = std::clamp(y + i * dy, 0, height_ - 1);
-          sum += kernel[static_cast<std::size_t>(i + radius)] * values_[index(at_x, at_y)];
+        for (int i = 0; i <= 2 * radius; ++i) {
+          const int at_x = std::clamp(x + (i - radius) * dx, 0, width_ - 1);
+          const int at_y = std::clamp(y + (i - radius) * dy, 0, height_ - 1);
+          sum += kernel[static_cast<std::size_t>(i)] * values_[index(at_x, at_y)];
         }
         result.values_[index(x, y)] = sum;
       }
@@ -224,12 +224,12 @@ double color_difference(const Vec3d& a, const Vec3d& b) {
   constexpr double kExponent = 0.7;
   constexpr double kKnee = 0.4;     // share of the largest difference …
   constexpr double kAtKnee = 0.95;  // … that is mapped to this
-  static const double largest =
+  static const double kLargest =
       std::pow(hyab(to_hunt_lab({0, 1, 0}), to_hunt_lab({0, 0, 1})), kExponent);
   const double compressed = std::pow(hyab(a, b), kExponent);
-  const double knee = kKnee * largest;
+  const double knee = kKnee * kLargest;
   if (compressed < knee) return kAtKnee / knee * compressed;
-  return kAtKnee + (compressed - knee) / (largest - knee) * (1.0 - kAtKnee);
+  return kAtKnee + (compressed - knee) / (kLargest - knee) * (1.0 - kAtKnee);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct Vertex {
   double slack;  // bound of the error: 0 for a corner of the triangle
 };
 
-// A triangle cut by six planes has at most nine corners.
+// A triangle cut by six planes has at most nine corners. Filled as far as it is read.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct Polygon {
   std::array<Vertex, 10> v;
   std::size_t n = 0;

@@ -17,12 +17,12 @@ class KdNode {
   static constexpr std::uint32_t kMaxIndex = (1U << 30) - 1;
 
   [[nodiscard]] static KdNode inner(int axis, float split, std::uint32_t right_child) {
-    return KdNode(std::bit_cast<std::uint32_t>(split),
-                  static_cast<std::uint32_t>(axis) | (right_child << 2));
+    return {std::bit_cast<std::uint32_t>(split),
+            static_cast<std::uint32_t>(axis) | (right_child << 2)};
   }
   /// A leaf over leaf_triangles[first, first + count).
   [[nodiscard]] static KdNode leaf(std::uint32_t first, std::uint32_t count) {
-    return KdNode(first, 3U | (count << 2));
+    return {first, 3U | (count << 2)};
   }
   KdNode() : KdNode(leaf(0, 0)) {}
 

@@ -45,7 +45,7 @@ class MemoryMap {
   /// RGBA8. A block of 4 × 4 texels is one 64-byte line.
   static constexpr Bytes kTexelSize = 4;
   static constexpr std::uint32_t kBlockEdge = 4;
-  static constexpr Bytes kBlockSize = kBlockEdge * kBlockEdge * kTexelSize;
+  static constexpr Bytes kBlockSize = kTexelSize * kBlockEdge * kBlockEdge;
 
   struct Region {
     Address base = 0;

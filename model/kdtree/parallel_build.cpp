@@ -30,7 +30,7 @@ struct Job {
 // Jobs to be done, until none is left and none is running that could add more.
 class JobQueue {
  public:
-  explicit JobQueue(Job& root) : jobs_{&root}, unfinished_(1) {}
+  explicit JobQueue(Job& root) : jobs_{&root} {}
 
   // The next job; null when all are done or one has failed.
   Job* take() {
@@ -67,7 +67,7 @@ class JobQueue {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job*> jobs_;
-  std::size_t unfinished_;
+  std::size_t unfinished_ = 1;
   std::exception_ptr failure_;
 };
 

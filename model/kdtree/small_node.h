@@ -23,6 +23,8 @@ struct SmallNode {
   std::array<std::uint32_t, kCapacity> triangle;  ///< ascending
   std::size_t count = 0;
 
+  // Triangles are read up to the count only.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   SmallNode() {
     for (Row& row : lo) row.fill(std::numeric_limits<float>::infinity());
     for (Row& row : hi) row.fill(-std::numeric_limits<float>::infinity());

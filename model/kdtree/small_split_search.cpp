@@ -147,7 +147,7 @@ bool has_planar(const SmallNode& node, std::size_t k) {
 // The cheapest of all lanes; of equal ones the first, however many lanes there are.
 std::int32_t first_cheapest(const Best& best) {
   alignas(64) SmallNode::Row cost;
-  alignas(64) std::array<std::int32_t, SmallNode::kCapacity> candidate;
+  alignas(64) std::array<std::int32_t, SmallNode::kCapacity> candidate{};
   hn::Store(best.cost, kFloats, cost.data());
   hn::Store(best.candidate, kInts, candidate.data());
   std::size_t found = 0;

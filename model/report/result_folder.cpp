@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <ranges>
 #include <system_error>
 
 #include "base/errors.h"
@@ -50,7 +51,7 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
   return missing;
 }
 
-fs::path without_trailing_slash(fs::path path) {
+fs::path without_trailing_slash(const fs::path& path) {
   const bool trailing = path.has_relative_path() && !path.has_filename();
   return trailing ? path.parent_path() : path;
 }
@@ -94,7 +95,7 @@ ResultFolder::~ResultFolder() {
 void ResultFolder::remove_made_folders() noexcept {
   // Those with a result in them are not empty, and stay.
   std::error_code ignored;
-  for (auto made = made_.rbegin(); made != made_.rend(); ++made) fs::remove(*made, ignored);
+  for (const fs::path& made : std::ranges::reverse_view(made_)) fs::remove(made, ignored);
 }
 
 fs::path ResultFolder::stage(std::string_view name) {

@@ -34,7 +34,7 @@ std::string stats_json(const StatsTree& tree) {
   std::string out = "{";
   std::string_view separator = "\n";
   for (const StatsEntry& entry : tree.entries()) {
-    out += fmt::format("{}  {}: {{\"value\": {}, \"unit\": {}}}", separator, dump(entry.path),
+    out += fmt::format(R"({}  {}: {{"value": {}, "unit": {}}})", separator, dump(entry.path),
                        dump(to_json(entry.value)), dump(entry.unit));
     separator = ",\n";
   }

@@ -20,7 +20,7 @@ struct SummaryInput {
   const Config& config;
   const BuildPlan& plan;
   const StatsTree& stats;
-  bool complete;
+  bool complete = false;
   WallTimes wall;
 };
 

@@ -109,7 +109,8 @@ void AccessorView::read_layout(const tinygltf::Accessor& accessor) {
 }
 
 void AccessorView::bind_base(const Document& document, const tinygltf::Accessor& accessor) {
-  const auto element = static_cast<std::uint64_t>(component_bytes_ * num_components_);
+  const auto element =
+      static_cast<std::uint64_t>(component_bytes_) * static_cast<std::uint64_t>(num_components_);
   stride_ = element;
   if (accessor.bufferView < 0) {
     if (count_ > kMaxZeroElements) {
@@ -145,7 +146,8 @@ void AccessorView::bind_sparse(const Document& document, const tinygltf::Accesso
   const auto count = static_cast<std::uint64_t>(sparse.count);
   const auto index_bytes =
       static_cast<std::uint64_t>(bytes_of_component(sparse.indices.componentType));
-  const auto element = static_cast<std::uint64_t>(component_bytes_ * num_components_);
+  const auto element =
+      static_cast<std::uint64_t>(component_bytes_) * static_cast<std::uint64_t>(num_components_);
   const std::string place = place_ + "/sparse";
   const std::uint8_t* indices =
       checked_start(buffer_view_bytes(document, place, sparse.indices.bufferView),

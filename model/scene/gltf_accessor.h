@@ -25,15 +25,17 @@ class AccessorView {
   [[nodiscard]] bool normalized() const { return normalized_; }
   [[nodiscard]] const std::string& place() const { return place_; }
 
-  /// The first N components of element i < count(), as real numbers; normalized integers are
+  /// The first kCount components of element i < count(), as real numbers; normalized integers are
   /// mapped to [0, 1] or [-1, 1] (glTF 2.0 specification, section 3.11, "Animations", table of
-  /// integer encodings). N <= num_components().
-  template <int N>
-  [[nodiscard]] std::array<double, N> element(std::uint64_t i) const {
+  /// integer encodings). kCount <= num_components().
+  template <int kCount>
+  [[nodiscard]] std::array<double, kCount> element(std::uint64_t i) const {
     const std::uint8_t* bytes = data_of(i);
-    std::array<double, N> result{};
+    std::array<double, kCount> result{};
     if (bytes == nullptr) return result;
-    for (int c = 0; c < N; ++c) result[c] = component(bytes + c * component_bytes_);
+    for (int c = 0; c < kCount; ++c) {
+      result[c] = component(bytes + std::ptrdiff_t{c} * component_bytes_);
+    }
     return result;
   }
 

@@ -25,7 +25,7 @@ Vec3 world_direction(const glm::dmat4& world, const std::string& place) {
   if (!(length > 0.0) || !std::isfinite(length)) {
     refuse(place, "the light has no direction: its node is scaled to nothing");
   }
-  return Vec3(direction / length);
+  return {direction / length};
 }
 
 void read_cone(const tinygltf::SpotLight& spot, const std::string& place, Light& light) {

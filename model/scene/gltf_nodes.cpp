@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <ranges>
 
 #include "geometry/vec.h"
 #include "scene/gltf_limits.h"
@@ -28,7 +29,7 @@ dmat4 compose(const Vec3d& translation, const dquat& rotation, const Vec3d& scal
 dquat unit_rotation(double x, double y, double z, double w, const std::string& place) {
   const double length = std::sqrt(x * x + y * y + z * z + w * w);
   if (!(length > 0.0) || !std::isfinite(length)) refuse(place, "the rotation has no direction");
-  return dquat(w / length, x / length, y / length, z / length);
+  return {w / length, x / length, y / length, z / length};
 }
 
 void check_size(const std::vector<double>& numbers, std::size_t size, const std::string& place) {
@@ -82,7 +83,7 @@ InstanceAttributes read_instances(const Document& document, const tinygltf::Node
   // An extension with custom attributes only still says how many instances there are.
   result.count = 0;
   for (const std::string& name : attributes.Keys()) {
-    const AccessorView view(document, place + "/" + name,
+    const AccessorView view(document, fmt::format("{}/{}", place, name),
                             index_or_none(attributes, name.c_str(), place));
     if (result.count != 0 && view.count() != result.count) {
       refuse(place, fmt::format("attributes of {} and {} instances", result.count, view.count()));
@@ -136,11 +137,11 @@ class Walk {
   }
 
   void push(const std::vector<int>& nodes, const std::string& place, const dmat4& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-      if (*node < 0 || static_cast<std::size_t>(*node) >= reached_.size()) {
-        refuse(place, fmt::format("there is no node {}", *node));
+    for (const int node : std::ranges::reverse_view(nodes)) {
+      if (node < 0 || static_cast<std::size_t>(node) >= reached_.size()) {
+        refuse(place, fmt::format("there is no node {}", node));
       }
-      pending_.push_back({*node, parent});
+      pending_.push_back({node, parent});
     }
   }
 

@@ -83,7 +83,7 @@ fs::path UriReader::resolve(const std::string& place, const std::string& uri) co
                               shown));
   }
   std::error_code error;
-  const fs::path target = fs::weakly_canonical(folder_ / relative, error);
+  fs::path target = fs::weakly_canonical(folder_ / relative, error);
   const auto [end, unused] =
       std::mismatch(folder_.begin(), folder_.end(), target.begin(), target.end());
   if (error || end != folder_.end()) {
@@ -103,7 +103,7 @@ Bytes8 UriReader::read(const std::string& place, const std::string& uri) {
   if (uri.starts_with("data:")) {
     bytes = decode_data(place, uri);
   } else {
-    const fs::path target = resolve(place, uri);
+    fs::path target = resolve(place, uri);
     try {
       bytes = read_file(target, remaining_);
     } catch (const Refusal& refusal) {

@@ -30,7 +30,7 @@ namespace {
 using namespace gltf;
 
 Vec3 center(const Box& box) {
-  return Vec3((Vec3d(box.lo) + Vec3d(box.hi)) * 0.5);
+  return {(Vec3d(box.lo) + Vec3d(box.hi)) * 0.5};
 }
 
 /// Grown step by step, the arrays would need twice their memory for a while. Room for vertices that
@@ -72,6 +72,7 @@ Camera named_camera(const std::vector<NamedCamera>& cameras, const std::string& 
   if (found == cameras.end()) found = by(&NamedCamera::own_name);
   if (found != cameras.end()) return found->camera;
   std::vector<std::string> names;
+  names.reserve(cameras.size());
   for (const NamedCamera& c : cameras) names.push_back("\"" + c.name + "\"");
   throw Error(ExitCode::kUsage,
               fmt::format("camera.name: {} has no camera \"{}\"; it has {}", file, printable(name),

@@ -26,6 +26,8 @@ class TileOrder {
             std::vector<std::uint32_t> choice = {})
       : width_(width), height_(height), tile_(tile), run_(run), choice_(std::move(choice)) {}
 
+  // Filled as far as it is read.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   struct Run {
     std::array<std::uint32_t, kMaxRun> pixels;  ///< row × width + column, or kNoPixel
     std::uint32_t tile = 0;                     ///< number of the tile, row by row

@@ -47,7 +47,7 @@ struct OffsetScale {
   }
   const auto ulps = static_cast<std::int32_t>(kOffsetUlps * n);
   const auto bits = std::bit_cast<std::int32_t>(p);
-  const float moved = std::bit_cast<float>(p < 0.0F ? bits - ulps : bits + ulps);
+  const auto moved = std::bit_cast<float>(p < 0.0F ? bits - ulps : bits + ulps);
   if (!std::isfinite(moved)) return p;  // beyond FLT_MAX there is nothing to meet
   const float step = scale.least * n;
   return std::fabs(moved - p) < std::fabs(step) ? p + step : moved;

@@ -61,7 +61,7 @@ struct Crossing {
 };
 
 Crossing cross_boundary(const Vec3d& d, const ReferenceSurface& s) {
-  const double ior = static_cast<double>(s.material->ior);
+  const auto ior = static_cast<double>(s.material->ior);
   if (ior == 1.0) {
     return {0.0, d};
   }

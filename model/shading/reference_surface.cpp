@@ -55,7 +55,10 @@ Vec3d texture_color(const Texture& t, double u, double v) {
 
 ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray,
                                    const ReferenceHit& hit) {
-  const auto& [ia, ib, ic] = scene.triangles[hit.triangle];
+  const auto& corners = scene.triangles[hit.triangle];
+  const std::uint32_t ia = corners[0];
+  const std::uint32_t ib = corners[1];
+  const std::uint32_t ic = corners[2];
   const double w = 1.0 - hit.u - hit.v;
   const Vec3d a(scene.positions[ia]);
   const Vec3d b(scene.positions[ib]);

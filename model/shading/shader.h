@@ -27,6 +27,7 @@ struct TexelAccess {
 };
 
 /// A hit point with everything the spawned rays depend on.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct Surface {
   Vec3 position{0.0F};
   Vec3 geometric_normal{0.0F};  ///< unit, on the side the ray came from

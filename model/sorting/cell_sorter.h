@@ -29,7 +29,7 @@ class CellSorter final : public RaySorter {
   [[nodiscard]] std::uint32_t open_cell(const Ray& ray, std::size_t group, Cycles now,
                                         std::vector<RayPacket*>& departures);
   [[nodiscard]] std::uint32_t choose_victim() const;
-  void close(std::uint32_t cell, Departure why, Cycles now, std::vector<RayPacket*>& departures);
+  void close(std::uint32_t index, Departure why, Cycles now, std::vector<RayPacket*>& departures);
 
   VictimPolicy victim_;
   /// One for all rays, or one a group of kinds; they share the cells.

@@ -28,13 +28,13 @@ class GridSorter final : public RaySorter {
  private:
   struct Waiting {
     Ray ray;
-    Cycles arrival;
+    Cycles arrival = 0;
   };
   using Queue = std::vector<Waiting>;
 
   /// The next queue to schedule; a resident one only if it holds `least` rays.
   [[nodiscard]] std::uint32_t choose(std::size_t least) const;
-  void schedule(std::uint32_t queue, Departure why, Cycles now,
+  void schedule(std::uint32_t index, Departure why, Cycles now,
                 std::vector<RayPacket*>& departures);
   void make_resident(std::uint32_t voxel);
 

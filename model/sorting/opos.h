@@ -27,7 +27,7 @@ class OposSorter final : public RaySorter {
  private:
   struct Waiting {
     Ray ray;
-    Cycles arrival;
+    Cycles arrival = 0;
   };
   void form_packets(std::vector<Waiting>& list, Departure why, Cycles now,
                     std::vector<RayPacket*>& departures);

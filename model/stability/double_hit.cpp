@@ -59,7 +59,7 @@ DoubleHit hit_in_doubles(const TriangleRecord& triangle, const Ray& ray) {
 }
 
 bool explains(const MeshScene& scene, const Ray& ray, const Hit& hit) {
-  double until = double{ray.t_max};
+  auto until = double{ray.t_max};
   if (hit.triangle != kNoHit) {
     const DoubleHit own = hit_in_doubles(scene.records[hit.triangle], ray);
     if (own.margin < -own.margin_error) return false;

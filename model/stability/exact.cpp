@@ -44,7 +44,7 @@ struct Scaled {
 };
 Scaled scaled(const Integer& x) {
   if (x == 0) return {};
-  const Integer size = abs(x);
+  const Integer size = x < 0 ? Integer(-x) : x;
   const auto bits = static_cast<int>(msb(size)) + 1;
   const int shift = bits > 64 ? bits - 64 : 0;
   const auto top = static_cast<std::uint64_t>(Integer(size >> shift));
@@ -139,13 +139,13 @@ std::vector<float> sums_by_definition(FilmFormat format, std::span<const float> 
   return sums;
 }
 
-bool contains_axis(const ShearedTriangle& s) {
+bool contains_axis(const ShearedTriangle& triangle) {
   const auto edge = [](float px, float py, float qx, float qy) -> Integer {
     return whole(px) * whole(qy) - whole(py) * whole(qx);
   };
-  const Integer u = edge(s.cx, s.cy, s.bx, s.by);
-  const Integer v = edge(s.ax, s.ay, s.cx, s.cy);
-  const Integer w = edge(s.bx, s.by, s.ax, s.ay);
+  const Integer u = edge(triangle.cx, triangle.cy, triangle.bx, triangle.by);
+  const Integer v = edge(triangle.ax, triangle.ay, triangle.cx, triangle.cy);
+  const Integer w = edge(triangle.bx, triangle.by, triangle.ax, triangle.ay);
   const bool some_negative = u < 0 || v < 0 || w < 0;
   const bool some_positive = u > 0 || v > 0 || w > 0;
   return some_negative != some_positive;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small scene files that ask for what they must not get.
 #include <fmt/format.h>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

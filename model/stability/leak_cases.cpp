@@ -135,8 +135,7 @@ class LeakMeasurement {
   /// Unit normals, and corners numbered by position.
   void prepare() {
     std::map<std::array<float, 3>, std::uint32_t> numbers;
-    for (std::size_t i = 0; i < scene_.records.size(); ++i) {
-      const TriangleRecord& t = scene_.records[i];
+    for (const TriangleRecord& t : scene_.records) {
       const Vec3d normal = glm::cross(Vec3d(t.b) - Vec3d(t.a), Vec3d(t.c) - Vec3d(t.a));
       const bool inwards = glm::dot(normal, Vec3d(t.a) - Vec3d(source_.centre)) < 0.0;
       outward_.push_back((inwards ? -normal : normal) / glm::length(normal));

@@ -88,6 +88,7 @@ std::vector<Factor> with_spilling_and_crossbars(std::vector<Factor> all) {
 std::vector<std::vector<std::string>> machines(const std::vector<Factor>& all,
                                                std::size_t strength) {
   std::vector<std::size_t> levels;
+  levels.reserve(all.size());
   for (const Factor& factor : all) levels.push_back(factor.levels.size());
   std::vector<std::vector<std::string>> result;
   for (const auto& row : covering_array(levels, strength)) {

@@ -101,7 +101,7 @@ Hit test_all(const MeshScene& scene, const Ray& ray) {
   const ShearedRay sheared(ray.origin, ray.direction);
   Hit best{kNoHit, ray.t_max};
   for (std::uint32_t i = 0; i < scene.records.size(); ++i) {
-    TriangleHit hit;
+    TriangleHit hit{};
     if (!hit_sheared(sheared.shear(&scene.records[i].a.x), hit)) continue;
     if (hit.t >= 0.0F && (hit.t < best.t || (hit.t == best.t && i < best.triangle))) {
       best = {i, hit.t};

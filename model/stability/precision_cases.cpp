@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <utility>
 
 #include "stability/catalogue.h"
 #include "stability/mesh_scene.h"
@@ -75,7 +76,9 @@ std::vector<Finding> in_fewer_bits(const Mesh& mesh, int num_rays) {
 std::vector<StabilityCase> precision_cases() {
   constexpr int kRays = 4000;
   const auto of = [](Mesh mesh) {
-    return [mesh](const Effort& effort) { return in_fewer_bits(mesh, effort.trials(kRays)); };
+    return [mesh = std::move(mesh)](const Effort& effort) {
+      return in_fewer_bits(mesh, effort.trials(kRays));
+    };
   };
   return {
       {"precision", "bits of a sphere", "split planes and rays in 16, 12 and 8 bits",

@@ -96,7 +96,7 @@ class RayMeasurement {
     const ShearedRay sheared(ray.origin, ray.direction);
     for (const TriangleRecord& record : scene_.records) {
       const ShearedTriangle seen = sheared.shear(&record.a.x);
-      TriangleHit ignored;
+      TriangleHit ignored{};
       signs_.check(hit_sheared(seen, ignored) == contains_axis(seen),
                    [&] { return describe(ray); });
     }

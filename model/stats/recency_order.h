@@ -82,7 +82,7 @@ class RecencyOrder {
 
   // Bits of the stamp's block up to the stamp.
   [[nodiscard]] std::uint32_t count_up_to(Stamp stamp) const {
-    const std::uint64_t* word = words_.data() + stamp / kBlock * (kBlock / 64);
+    const std::uint64_t* word = words_.data() + std::size_t{stamp / kBlock} * (kBlock / 64);
     const std::uint64_t* const last = words_.data() + stamp / 64;
     int count = std::popcount(*last << (63 - stamp % 64));
     for (; word != last; ++word) count += std::popcount(*word);

@@ -21,14 +21,14 @@ namespace sheaf {
 template <typename Kind>
 class MachineParts {
  public:
+  MachineParts(const MachineParts&) = delete;
+  MachineParts& operator=(const MachineParts&) = delete;
   void report(StatsTree& stats) const;
 
  protected:
   MachineParts(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
                Frame& frame, const RunHooks& hooks);
   ~MachineParts();
-  MachineParts(const MachineParts&) = delete;
-  MachineParts& operator=(const MachineParts&) = delete;
 
   void finish_accounts(Cycles end);
   /// Throws Error(kBug) if one fails.

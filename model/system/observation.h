@@ -67,7 +67,7 @@ class Observation {
 /// A quantity that is reported as an estimate, and compared between fidelities.
 struct Quantity {
   CounterInfo info;
-  Observed total;
+  Observed total{};
   Observed per = Observed::kNone;  ///< kNone: the total itself
 };
 

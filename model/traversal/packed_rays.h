@@ -41,7 +41,7 @@ struct alignas(64) PackedRays {
   Lanes<std::uint8_t> packet_lane;  ///< where each ray stands in its packet
 
   [[nodiscard]] ShearedRay sheared_ray(std::size_t lane) const {
-    ShearedRay ray;
+    ShearedRay ray;  // NOLINT(cppcoreguidelines-pro-type-member-init): assigned one by one
     ray.x = permutation[0][lane];
     ray.y = permutation[1][lane];
     ray.z = permutation[2][lane];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "channels/clock_domain.h"
@@ -44,8 +45,8 @@ class WorstCase {
 /// all 0, and the counts are asked for as they stand.
 class FlowControl {
  public:
-  FlowControl(const FlowSpec& spec, const WorstCase& worst_case, std::uint64_t credits)
-      : worst_case_(worst_case), credits_(credits), policy_(spec.control) {}
+  FlowControl(const FlowSpec& spec, WorstCase worst_case, std::uint64_t credits)
+      : worst_case_(std::move(worst_case)), credits_(credits), policy_(spec.control) {}
 
   void bind_source(Inbox& inbox) { source_ = &inbox; }
   void bind_regrouper(Inbox& inbox) { regrouper_ = &inbox; }

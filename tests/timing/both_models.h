@@ -95,6 +95,13 @@ class UnitBench : public Agent {
       }
     }
   }
+  /// The same for a unit that stands alone. An event-driven one wakes by itself.
+  template <typename Unit>
+  void run_unit(Unit& unit) {
+    run([&](Cycles now) {
+      if constexpr (!M::kTimed) unit.tick(now);
+    });
+  }
   Cycles wake(Cycles now) override { return act_if_due(now); }
 
   template <typename Stats>

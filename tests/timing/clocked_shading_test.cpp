@@ -158,9 +158,7 @@ struct ShaderBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     bench.note_counters(unit->pipeline_stats());
     bench.note_counters(unit->attribute_cache().stats());
     bench.note_counters(unit->texture_cache()->stats());
@@ -230,9 +228,7 @@ struct FilmBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     bench.note_counters(unit->stats());
     bench.note_counters(unit->cache().stats());
     bench.note_stalls(*unit);
@@ -298,9 +294,7 @@ struct ShaderCacheBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     EXPECT_EQ(flow.live(), 0U);
     bench.note_counters(unit->sorter().stats());
     bench.note_stalls(*unit);

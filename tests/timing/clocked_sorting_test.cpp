@@ -92,9 +92,7 @@ struct RegrouperBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     EXPECT_EQ(flow.live(), 0U);
     if constexpr (kSorts) {
       bench.note_counters(unit->sorter().stats());
@@ -179,9 +177,7 @@ struct ArbiterBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     bench.note_counters(unit->stats());
     bench.note_stalls(*unit);
   }
@@ -237,9 +233,7 @@ struct SourceBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     EXPECT_TRUE(flow->finished());
     bench.note_counters(unit->stats());
     bench.note("packets", packets.num_made(), rays.total().spawned);

@@ -51,9 +51,7 @@ struct SpillBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     EXPECT_TRUE(unit->is_idle());
     bench.note("sent", bundles.size());
     bench.note_counters(unit->stats());

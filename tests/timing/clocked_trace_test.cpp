@@ -113,9 +113,7 @@ struct TraversalBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     EXPECT_FALSE(unit->cache().has_pending());
     bench.note_counters(unit->pipeline_stats());
     bench.note_counters(unit->cache().stats());
@@ -192,9 +190,7 @@ struct IntersectionBench {
   }
 
   void run_to_end() {
-    bench.run([&](Cycles now) {
-      if constexpr (!M::kTimed) unit->tick(now);
-    });
+    bench.run_unit(*unit);
     EXPECT_FALSE(unit->cache().has_pending());
     bench.note("jobs", sent);
     bench.note_counters(unit->pipeline_stats());

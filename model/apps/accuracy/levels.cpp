@@ -148,6 +148,7 @@ std::vector<bool> pareto_front(const std::vector<LevelRun>& runs, const LevelRun
            (a.processor_seconds < b.processor_seconds || error_a < error_b);
   };
   std::vector<bool> front;
+  front.reserve(runs.size());
   for (const LevelRun& run : runs) {
     front.push_back(
         std::ranges::none_of(runs, [&](const LevelRun& other) { return beats(other, run); }));

@@ -44,6 +44,11 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
 }
 
+/// Of a frame, or of an estimate, which need not be whole.
+std::string whole_cycles(double cycles) {
+  return std::isfinite(cycles) ? grouped(static_cast<std::uint64_t>(std::llround(cycles))) : "-";
+}
+
 void add_levels(const AccuracyResult& result, std::string& text) {
   constexpr auto kLeft = Align::kLeft;
   constexpr auto kRight = Align::kRight;
@@ -54,9 +59,9 @@ void add_levels(const AccuracyResult& result, std::string& text) {
   const std::vector<bool> front = pareto_front(result.runs, result.reference);
   for (std::size_t i = 0; i < result.runs.size(); ++i) {
     const LevelRun& run = result.runs[i];
-    const auto cycles = static_cast<std::uint64_t>(run.quantities[kCyclesQuantity].value);
     table.add_row({run.level.name, fmt::format("{:.3f}", run.processor_seconds),
-                   fmt::format("{:.3f}", run.wall_seconds), grouped(cycles),
+                   fmt::format("{:.3f}", run.wall_seconds),
+                   whole_cycles(run.quantities[kCyclesQuantity].value),
                    percent(run.error(kCyclesQuantity, result.reference)),
                    percent(run.error(kDramBytesQuantity, result.reference)),
                    percent(run.worst_hit_rate_error(result.reference)),
@@ -88,9 +93,7 @@ void add_images(const AccuracyResult& result, std::string& text) {
   table.add_row({"picture", "film", "cycles", "RMSE", "relMSE", "FLIP"});
   table.add_rule();
   for (const ImageError& row : result.images) {
-    const std::string cycles =
-        std::isfinite(row.cycles) ? grouped(static_cast<std::uint64_t>(row.cycles)) : "-";
-    table.add_row({row.picture, row.film, cycles, fmt::format("{:.3g}", row.rmse),
+    table.add_row({row.picture, row.film, whole_cycles(row.cycles), fmt::format("{:.3g}", row.rmse),
                    fmt::format("{:.3g}", row.rel_mse), fmt::format("{:.4f}", row.flip)});
   }
   text += "\nImage against the double-precision reference\n\n" + table.text(2);

@@ -75,8 +75,8 @@ class Retracer final : public ShadingSource {
 
 class Experiment {
  public:
-  Experiment(const Config& config, const PreparedScene& scene, const std::function<bool()>& stop)
-      : config_(config), scene_(scene), stop_(stop), space_(scene.tree.bounds) {
+  Experiment(Config config, const PreparedScene& scene, const std::function<bool()>& stop)
+      : config_(std::move(config)), scene_(scene), stop_(stop), space_(scene.tree.bounds) {
     config_.run.fidelity = Fidelity::kFunctional;
     space_.add(scene.scene.camera.position);
   }

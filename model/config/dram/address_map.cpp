@@ -9,6 +9,7 @@
 #include <bit>
 #include <charconv>
 #include <optional>
+#include <ranges>
 
 #include "base/errors.h"
 #include "config/config_text.h"
@@ -104,11 +105,11 @@ AddressMap::AddressMap(std::string_view text, const DramOrganization& organizati
     }
   }
   std::array<unsigned, kNumFields> used{};
-  for (auto piece = parsed.rbegin(); piece != parsed.rend(); ++piece) {
-    if (*piece->bits == 0) continue;
+  for (const auto& piece : std::ranges::reverse_view(parsed)) {
+    if (*piece.bits == 0) continue;
     pieces_.push_back(
-        {piece->field, *piece->bits, used[piece->field], (std::uint64_t{1} << *piece->bits) - 1});
-    used[piece->field] += *piece->bits;
+        {piece.field, *piece.bits, used[piece.field], (std::uint64_t{1} << *piece.bits) - 1});
+    used[piece.field] += *piece.bits;
   }
   if (!pieces_.empty() && kFieldNames[pieces_[0].field] == "column") {
     bursts_in_a_run_ = std::uint32_t{1} << pieces_[0].bits;

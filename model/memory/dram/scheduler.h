@@ -96,7 +96,7 @@ class DramScheduler {
   Candidates candidates_{};               ///< of banks with requests
   std::vector<std::uint32_t> overtaken_;  ///< a bank: row hits that went before an older request
   /// A kind, a group: for all its banks; kPrecharge: for all banks.
-  std::array<std::uint64_t, kNumKinds * kMostBanks> from_{};
+  std::array<std::uint64_t, std::size_t{kNumKinds} * kMostBanks> from_{};
   std::vector<Cycles> refresh_at_;
   const std::uint64_t all_banks_;
   std::uint64_t stale_ = 0;  ///< bit i: bank i or its requests have changed

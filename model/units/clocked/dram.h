@@ -5,6 +5,7 @@
 #include <compare>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "base/object_pool.h"
 #include "config/config.h"
@@ -67,7 +68,8 @@ class Dram {
 /// Data flows `latency` after the request, or when the bus is free.
 class FixedDram final : public Dram {
  public:
-  FixedDram(Cycles request_latency, const DramSpec& spec) : Dram(request_latency), spec_(spec) {}
+  FixedDram(Cycles request_latency, DramSpec spec)
+      : Dram(request_latency), spec_(std::move(spec)) {}
   void tick(Cycles now) override;
   [[nodiscard]] bool is_idle() const override { return requests.size() == 0; }
   [[nodiscard]] DramStats stats(Cycles /*end*/) const override { return stats_; }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/object_pool.h"
@@ -19,10 +20,10 @@ namespace sheaf::clocked {
 /// packet waits to leave nothing else is done.
 class RayCache final : public Unit {
  public:
-  RayCache(std::string name, const RayCacheSpec& spec, std::unique_ptr<RaySorter> sorter,
+  RayCache(std::string name, RayCacheSpec spec, std::unique_ptr<RaySorter> sorter,
            ObjectPool<SpawnBundle>& bundles, FlowControl& flow)
       : Unit(std::move(name)),
-        spec_(spec),
+        spec_(std::move(spec)),
         sorter_(std::move(sorter)),
         bundles_(bundles),
         flow_(flow) {}

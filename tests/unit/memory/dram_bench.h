@@ -3,10 +3,29 @@
 #pragma once
 
 #include <functional>
+#include <ostream>
 #include <vector>
 
 #include "config/parameters.h"
 #include "memory/dram/channel.h"
+#include "memory/dram/stream.h"
+
+namespace sheaf {
+
+// For the names of tests.
+inline void PrintTo(DramModel model, std::ostream* out) {
+  *out << to_string(model);
+}
+inline void PrintTo(PagePolicy page, std::ostream* out) {
+  *out << (page == PagePolicy::kOpen ? "open" : "closed");
+}
+inline void PrintTo(StreamKind kind, std::ostream* out) {
+  *out << (kind == StreamKind::kSequential ? "sequential"
+           : kind == StreamKind::kRandom   ? "random"
+                                           : "interleaved");
+}
+
+}  // namespace sheaf
 
 namespace sheaf::test {
 

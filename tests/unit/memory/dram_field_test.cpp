@@ -50,7 +50,8 @@ struct Unsaturated {
   double hit_percent;             ///< the same for all three
 };
 std::ostream& operator<<(std::ostream& out, const Unsaturated& u) {
-  return out << static_cast<int>(u.kind) << " gap " << u.gap;
+  PrintTo(u.kind, &out);
+  return out << " gap " << u.gap;
 }
 
 class UnsaturatedField : public testing::TestWithParam<Unsaturated> {};
@@ -80,7 +81,8 @@ struct Saturated {
   std::vector<double> bus_percent;
 };
 std::ostream& operator<<(std::ostream& out, const Saturated& s) {
-  return out << static_cast<int>(s.kind) << " queue " << s.queue;
+  PrintTo(s.kind, &out);
+  return out << " queue " << s.queue;
 }
 
 class SaturatedField : public testing::TestWithParam<Saturated> {};

@@ -137,6 +137,9 @@ struct Load {
   std::uint64_t rows = 0;
   double writes = 0;
 };
+void PrintTo(const Load& load, std::ostream* out) {
+  *out << load.gap << " tCK, " << load.rows << " rows, " << load.writes << " written";
+}
 
 void run_load(const DramDevice& device, const Load& load, std::uint64_t seed) {
   DramChannel channel(device);
