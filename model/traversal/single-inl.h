@@ -58,16 +58,16 @@ class SingleCursor {
         hwy::Prefetch(nodes_ + far);
         const float near_until = (node.split() - axis.near_origin) * axis.inverse;
         const float far_from = (node.split() - axis.far_origin) * axis.inverse;
-        const float near_leave = near_until < leave ? near_until : leave;
-        const float far_enter = far_from > enter ? far_from : enter;
-        // Whether both children are visited is hard to predict: store in any case, keep if so.
-        const bool visit_near = enter <= near_leave;
-        const bool visit_far = far_enter <= leave;
-        *top = {far, far_enter, leave};
-        top += visit_near & visit_far ? 1 : 0;
-        if (visit_near) {
+        // The interval is not empty, and a distance that is NaN skips nothing. Whether a far child
+        // waits behind a near one is hard to predict: stored in any case, it is kept without a
+        // jump.
+        const std::uint32_t skips_near = near_until < enter ? 1 : 0;
+        const std::uint32_t skips_far = far_from > leave ? 1 : 0;
+        *top = {far, far_from > enter ? far_from : enter, leave};
+        if (skips_near == 0) {
+          if (skips_far == 0) ++top;
           node_index = near;
-          leave = near_leave;
+          leave = near_until < leave ? near_until : leave;
         } else {
           node_index = far;
         }

@@ -223,5 +223,50 @@ TEST_F(MaskedTest, PacketOfShadowRaysStopsInTheMiddleOfALeaf) {
   EXPECT_EQ(w.counts.lane_triangle_tests, 5U);
 }
 
+/// A split at x = 0.5 with a leaf on either side.
+TestScene one_split() {
+  Mesh mesh;
+  mesh.add_quad(Vec3(0.0F), Vec3(1.0F, 0.0F, 0.0F), Vec3(0.0F, 1.0F, 0.0F));
+  TestScene scene(mesh);
+  scene.tree.nodes = {KdNode::inner(0, 0.5F, 2), KdNode::leaf(0, 0), KdNode::leaf(0, 0)};
+  scene.tree.leaf_triangles.clear();
+  return scene;
+}
+
+/// Leaves that a ray visits, which must be as many alone as beside its like.
+std::uint64_t leaf_visits(const TestScene& scene, const Ray& ray) {
+  RayPacket packet;
+  packet.clear(2);
+  packet.put(0, ray);
+  const Walk alone = walk(scene, TraversalScheme::kSingle, packet);
+  packet.put(1, ray);
+  const Walk both = walk(scene, TraversalScheme::kMasked, packet);
+  EXPECT_EQ(2 * alone.counts.lane_leaf_visits, both.counts.lane_leaf_visits);
+  return alone.counts.lane_leaf_visits;
+}
+
+TEST(MaskedBoundary, FarChildIsVisitedToTheVeryUlpAlone) {
+  const TestScene scene = one_split();
+  std::set<std::uint64_t> visits;
+  Ray ray = make_ray(Vec3(-1.0F, 0.5F, 0.0F), Vec3(1.0F, 0.0F, 0.0F));
+  const auto crossing = std::bit_cast<std::uint32_t>(1.5F);
+  for (std::uint32_t bits = crossing - 64; bits <= crossing + 64; ++bits) {
+    ray.t_max = std::bit_cast<float>(bits);
+    visits.insert(leaf_visits(scene, ray));
+  }
+  EXPECT_EQ(visits, (std::set<std::uint64_t>{1, 2}));
+}
+
+TEST(MaskedBoundary, NearChildIsVisitedToTheVeryUlpAlone) {
+  const TestScene scene = one_split();
+  std::set<std::uint64_t> visits;
+  const auto split = std::bit_cast<std::uint32_t>(0.5F);
+  for (std::uint32_t bits = split - 64; bits <= split + 64; ++bits) {
+    const Vec3 origin(std::bit_cast<float>(bits), 0.5F, 0.0F);
+    visits.insert(leaf_visits(scene, make_ray(origin, Vec3(1.0F, 0.0F, 0.0F))));
+  }
+  EXPECT_EQ(visits, (std::set<std::uint64_t>{1, 2}));
+}
+
 }  // namespace
 }  // namespace sheaf::test
