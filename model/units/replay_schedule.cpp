@@ -8,9 +8,8 @@
 
 namespace sheaf {
 
-ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors,
-                               ClockDomain& domain)
-    : layout_(layout), errors_(errors), domain_(domain), agent_(domain.add(*this)) {
+ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ClockDomain& domain)
+    : layout_(layout), domain_(domain), agent_(domain.add(*this)) {
   std::map<std::string, std::size_t> numbers;
   for (std::size_t i = 0; i < layout.streams.size(); ++i) {
     Stream& stream = streams_.emplace_back();
@@ -19,7 +18,6 @@ ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors,
     stream.group = known.first->second;
     groups_[stream.group].streams.push_back(i);
     stream.awaited = layout.streams[i].awaited;
-    stream.done.resize(kRemembered);
   }
 }
 
@@ -27,6 +25,7 @@ void ReplaySchedule::add(ReplayedUnit& unit, MemoryStream records) {
   const auto is_new = [](const Stream& stream) { return stream.unit == nullptr; };
   const auto stream = std::ranges::find_if(streams_, is_new);
   stream->unit = &unit;
+  stream->done.resize(std::clamp<std::uint64_t>(records.size(), 1, kRemembered));
   stream->reader = std::make_unique<ChainReader>(
       std::move(records), static_cast<std::size_t>(stream - streams_.begin()), chains_);
 }
@@ -36,28 +35,21 @@ void ReplaySchedule::begin() {
 }
 
 // So that half of kAhead at least lies before the cycle of the recording.
-void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) try {
+void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) {
   if (recorded + kAhead / 2 < read_until_) return;
   read_until_ = recorded + kAhead;
   for (Stream& stream : streams_) {
     stream.reader->read_until(read_until_, [&](ReplayChain& chain) { take_in(chain, now); });
   }
   advance_epoch(now);
-} catch (...) {
-  errors_.fail(std::current_exception());
-  domain_.stop();
 }
 
-bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) try {
+bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) {
   if (chain.next != chain.steps.size()) return true;
   ChainReader& reader = *streams_[chain.stream].reader;
   const bool has = reader.has_step(chain, [&](ReplayChain& read) { take_in(read, now); });
   advance_epoch(now);
   return has;
-} catch (...) {
-  errors_.fail(std::current_exception());
-  domain_.stop();
-  return false;
 }
 
 void ReplaySchedule::take_in(ReplayChain& chain, Cycles now) {
@@ -74,7 +66,7 @@ void ReplaySchedule::await(ReplayChain& chain, Cycles now) {
     return;
   }
   Stream& source = streams_[start.cause_stream];
-  Done& done = source.done[start.cause_record % kRemembered];
+  Done& done = source.done_of(start.cause_record);
   if (done.record == start.cause_record) {
     const Cycles at = start.cause_ended ? done.chain : done.step;
     if (at != kNever) return arrive(chain, at, now);
@@ -143,7 +135,7 @@ ReplayChain* ReplaySchedule::next_waiting(std::size_t stream) {
 void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context, Cycles now) {
   Stream& stream = streams_[chain.stream];
   const std::uint64_t record = chain.steps[chain.next].number;
-  Done& done = stream.done[record % kRemembered];
+  Done& done = stream.done_of(record);
   ReplayChain* const waiters = done.record == record ? done.waiters : nullptr;
   done = {record, now, kNever, &unit, static_cast<std::uint8_t>(context), waiters};
   tell_waiters(done, false, now);
@@ -157,7 +149,7 @@ void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) {
 
 void ReplaySchedule::chain_ended(ReplayChain& chain, std::uint64_t record, Cycles now) {
   Stream& stream = streams_[chain.stream];
-  Done& done = stream.done[record % kRemembered];
+  Done& done = stream.done_of(record);
   if (done.record == record) {
     done.chain = now;
     tell_waiters(done, true, now);
@@ -165,7 +157,7 @@ void ReplaySchedule::chain_ended(ReplayChain& chain, std::uint64_t record, Cycle
   // A caller waits for its answer.
   const ChainStart start = chain.start;
   if (start.cause_stream != AccessCause::kAllEarlier && !start.cause_ended) {
-    const Done& call = streams_[start.cause_stream].done[start.cause_record % kRemembered];
+    const Done& call = streams_[start.cause_stream].done_of(start.cause_record);
     if (call.record == start.cause_record && call.unit != nullptr) {
       call.unit->answered(call.context, call.record, now + layout_.answer_latency);
     }

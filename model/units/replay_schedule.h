@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <memory>
 #include <queue>
@@ -27,28 +26,13 @@ class ReplayedUnit {
   virtual void all_done(Cycles now) = 0;
 };
 
-/// Error(kTrace) thrown while a trace was read in the middle of a replay, to be thrown again after
-/// it: from within a simulation an exception has nowhere to go.
-class ReplayErrors {
- public:
-  void fail(std::exception_ptr error) {
-    if (!error_) error_ = std::move(error);
-  }
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  std::exception_ptr error_;
-};
-
 /// Lets the chains of a trace begin when what they waited for is done, each on the unit of its
 /// group with the most free contexts, or on the first one that gets a context free; of chains that
 /// wait for one, the first to have begun in the recording goes first, so that the choices of the
 /// arbiter are kept.
 class ReplaySchedule final : public Agent {
  public:
-  ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors, ClockDomain& domain);
+  ReplaySchedule(const MemoryLayout& layout, ClockDomain& domain);
 
   /// The unit of the stream, and its records. All of them, in order, before the simulation.
   void add(ReplayedUnit& unit, MemoryStream records);
@@ -76,7 +60,8 @@ class ReplaySchedule final : public Agent {
   [[nodiscard]] std::size_t agent() const { return agent_; }
 
  private:
-  /// Steps that are remembered in each stream; what lies further back is long done.
+  /// Steps that are remembered in each stream, if there are so many; what lies further back is long
+  /// done.
   static constexpr std::size_t kRemembered = std::size_t{1} << 18;
   /// Cycles of the recording that are read ahead: fewer steps than can be remembered, more than lie
   /// between a chain's beginning and that of what it waits for.
@@ -96,8 +81,10 @@ class ReplaySchedule final : public Agent {
     std::unique_ptr<ChainReader> reader;
     std::size_t group = 0;
     bool awaited = true;
-    std::vector<Done> done;                         ///< by record number modulo kRemembered
+    std::vector<Done> done;                         ///< by record number modulo its size
     std::map<std::uint64_t, std::uint64_t> epochs;  ///< chains not ended yet, by epoch
+
+    [[nodiscard]] Done& done_of(std::uint64_t record) { return done[record % done.size()]; }
   };
   struct Arrival {
     Cycles at = 0;
@@ -123,7 +110,6 @@ class ReplaySchedule final : public Agent {
   void advance_epoch(Cycles now);
 
   const MemoryLayout& layout_;
-  ReplayErrors& errors_;
   ClockDomain& domain_;
   const std::size_t agent_;
   ObjectPool<ReplayChain> chains_;
