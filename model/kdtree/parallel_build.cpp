@@ -7,10 +7,10 @@
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "base/helpers.h"
 #include "kdtree/tree_output.h"
 
 namespace sheaf {
@@ -154,8 +154,7 @@ void build_in_parallel(const MeshView& mesh, const SahCosts& costs, int max_dept
     }
   };
   {
-    std::vector<std::jthread> workers;
-    for (unsigned i = 1; i < threads; ++i) workers.emplace_back(work);
+    const auto helpers = start_helpers(threads - 1, work);
     work();
   }
   queue.rethrow_failure();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/accuracy/image_error.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include "apps/own_process.h"
 #include "apps/simulate_frame.h"
+#include "base/helpers.h"
 #include "image/compare.h"
 #include "image/flip.h"
 #include "shading/reference.h"
@@ -44,12 +46,11 @@ Picture reference_picture(const Config& config, const PreparedScene& scene,
       }
     }
   };
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
-    threads.emplace_back(trace_rows);
+  {
+    const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+    const auto helpers = start_helpers(processors - 1, trace_rows);
+    trace_rows();
   }
-  trace_rows();
-  for (std::thread& thread : threads) thread.join();
   return picture;
 }
 
