@@ -123,7 +123,9 @@ int accuracy_command(const AccuracyOptions& options) {
   const bool complete = run_levels(options, scene, result);
   if (complete) result.images = image_errors(config, scene, interrupted);
   if (complete) result.precision = precision_costs(config, scene, interrupted);
-  if (result.runs.empty()) return static_cast<int>(ExitCode::kInterrupted);
+  if (result.runs.empty()) {
+    throw Error(ExitCode::kInterrupted, "stopped before a level was complete; nothing is written");
+  }
   std::string text = accuracy_text(result);
   if (interrupted()) text = "PARTIAL: interrupted\n" + text;
   write_result(result, config, text, folder);

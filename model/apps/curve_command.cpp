@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "apps/frame_run.h"
 #include "base/errors.h"
 #include "report/plot.h"
 #include "report/result_folder.h"
@@ -26,7 +27,8 @@ constexpr const char* kFooter =
     "those of each recorded cache. A knee is a capacity up to which doubling saves much, and\n"
     "beyond which little.\n"
     "Example: sheaf curve result/dragon/memory.trace --line 32 --line 64 --sets 1 --sets 64\n"
-    "Exit codes: 0 done; 2 command line refused; 4 result not written; 6 trace refused.";
+    "Exit codes: 0 done; 2 command line refused; 4 result not written; 6 trace refused;\n"
+    "130 interrupted (nothing is written).";
 
 constexpr std::uint64_t kMaxLine = 65536;
 constexpr std::uint64_t kMaxSets = std::uint64_t{1} << 24;
@@ -142,13 +144,17 @@ int curve_command(const CurveOptions& options) {
       shapes.push_back({line, static_cast<std::uint32_t>(sets)});
     }
   }
+  catch_interrupts();
   TraceReader reader(options.trace);
   reader.require(TraceKind::kMemory, "a curve");
   reader.verify();
   const TraceMetadata metadata = read_metadata(reader);
   ResultFolder folder(options.out);
   MemoryAccesses accesses(reader, metadata.memory);
-  const auto curves = measure_miss_curves(accesses, metadata.memory, shapes);
+  const auto curves = measure_miss_curves(accesses, metadata.memory, shapes, interrupted);
+  if (interrupted()) {
+    throw Error(ExitCode::kInterrupted, "stopped before the curves were whole; nothing is written");
+  }
   if (curves.empty()) {
     throw Error(ExitCode::kTrace, options.trace.string() + ": holds no accesses to make curves of");
   }

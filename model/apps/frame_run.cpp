@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -23,11 +24,13 @@
 namespace sheaf {
 namespace {
 
-volatile std::sig_atomic_t interrupt_seen = 0;
+// Written by a signal handler, read by any thread.
+std::atomic<bool> interrupt_seen = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 // Asks the run to end with what it has; a second signal ends the process.
 void on_interrupt(int signal) {
-  interrupt_seen = 1;
+  interrupt_seen = true;
   std::signal(signal, SIG_DFL);
 }
 
@@ -86,7 +89,7 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return interrupt_seen != 0;
+  return interrupt_seen;
 }
 
 PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,
@@ -136,24 +139,24 @@ int run_frame(const FrameJob& job, ResultFolder& folder) {
   const Stopwatch run_watch;
   const RunHooks hooks = guest ? guest->hooks() : RunHooks{};
   const auto stop = [&] { return interrupted() || (guest && guest->failed()); };
-  const bool complete =
-      simulate_frame({config, plan, scene, hooks, job.observers, stop}, frame, stats);
+  bool complete = simulate_frame({config, plan, scene, hooks, job.observers, stop}, frame, stats);
   const double run_seconds = run_watch.seconds();
   report_rays(frame.rays, stats);
   report_energy(config, plan, stats);
-  if (config.measure.coherence && complete) {
+  const bool traced = complete;
+  if (config.measure.coherence && traced) {
     CoherencePass coherence(config, scene);
-    coherence.run();
-    coherence.report(plan.secondary_rays, stats);
+    complete = coherence.run(interrupted);
+    if (complete) coherence.report(plan.secondary_rays, stats);
   }
   stats.add("run", RunValues::complete, complete ? 1 : 0);
-  if (guest) guest->finish(complete, stats);
+  if (guest) guest->finish(traced, stats);
 
   const std::string summary =
       summarize({config, plan, stats, complete, {load_seconds, build_seconds, run_seconds}});
   if (job.images) write_images(config, frame, folder);
-  return finish_run({config, stats, summary, complete, "the frame was complete", job.quiet},
-                    folder);
+  const char* const unreached = traced ? "coherence had been measured" : "the frame was complete";
+  return finish_run({config, stats, summary, complete, unreached, job.quiet}, folder);
 }
 
 }  // namespace sheaf

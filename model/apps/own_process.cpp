@@ -6,9 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <string>
@@ -77,6 +80,15 @@ int wait_for(pid_t child, const std::function<bool()>& stop) {
   }
 }
 
+[[noreturn]] void refuse_signal(int signal) {
+  constexpr std::array kCrashes{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
+  const bool crashed = std::ranges::find(kCrashes, signal) != kCrashes.end();
+  throw Error(crashed ? ExitCode::kBug : ExitCode::kUsage,
+              fmt::format("a level was ended by signal {} ({}); {}", signal, strsignal(signal),
+                          crashed ? "a bug of the simulator, please report it"
+                                  : "if for want of memory, choose a smaller picture or scene"));
+}
+
 }  // namespace
 
 std::vector<double> in_own_process(const std::function<std::vector<double>()>& work,
@@ -95,9 +107,7 @@ std::vector<double> in_own_process(const std::function<std::vector<double>()>& w
     _exit(static_cast<int>(work_here(work_until_parent_ends, answer.get())));
   }
   const int status = wait_for(child, stop);
-  if (!WIFEXITED(status)) {
-    throw Error(ExitCode::kBug, fmt::format("a level was ended by signal {}", WTERMSIG(status)));
-  }
+  if (!WIFEXITED(status)) refuse_signal(WTERMSIG(status));
   if (WEXITSTATUS(status) != 0) {
     throw Error(static_cast<ExitCode>(WEXITSTATUS(status)), read_all<std::string>(answer.get()));
   }

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "apps/frame_run.h"
 #include "base/errors.h"
 #include "report/progress.h"
 #include "report/result_folder.h"
@@ -33,7 +34,7 @@ void declare_stability_command(CLI::App& app, StabilityOptions& options) {
   stability->add_option("--out", options.out, "Folder for stability.md and stability.csv");
   stability->footer(
       "Exit codes: 0 every case passes; 1 a bound is broken, which is a bug of the simulator;\n"
-      "2 command line refused; 4 result not written.");
+      "2 command line refused; 4 result not written; 130 interrupted (nothing is written).");
 }
 
 int stability_command(const StabilityOptions& options) {
@@ -45,6 +46,7 @@ int stability_command(const StabilityOptions& options) {
         fmt::format("--only {}: no case of this name; without it all are run", options.only));
   }
   const stability::Effort effort{options.quick};
+  catch_interrupts();
   std::optional<ResultFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
 
@@ -57,6 +59,10 @@ int stability_command(const StabilityOptions& options) {
     results.push_back({c, c.measure(effort)});
     num_failed += results.back().passes() ? 0 : 1;
     progress.erase();
+    if (interrupted()) {
+      throw Error(ExitCode::kInterrupted,
+                  fmt::format("stopped in {}/{}; nothing is written", c.group, c.name));
+    }
     std::fputs(stability::as_text(results.back()).c_str(), stdout);
     std::fflush(stdout);
   }

@@ -20,20 +20,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lines of text into a file that appears whole or not at all, or to standard output.
+/// A pipe or a device: something that is there to be written into, not to be replaced.
+bool is_special(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+/// Lines of text into a file that appears whole or not at all, into a pipe or a device, or to
+/// standard output.
 class TextOutput {
  public:
   explicit TextOutput(const fs::path& path) : path_(path) {
     if (path.empty()) return;
-    temporary_ = path.string() + ".partial";
-    file_ = std::fopen(temporary_.c_str(), "wb");
+    if (!is_special(path)) temporary_ = path.string() + ".partial";
+    file_ = std::fopen((temporary_.empty() ? path : temporary_).c_str(), "wb");
     if (file_ == nullptr) refuse();
   }
   ~TextOutput() {
     if (path_.empty() || file_ == nullptr) return;
     std::fclose(file_);
-    std::error_code ignored;
-    fs::remove(temporary_, ignored);
+    remove_temporary();
   }
   TextOutput(const TextOutput&) = delete;
   TextOutput& operator=(const TextOutput&) = delete;
@@ -51,6 +58,7 @@ class TextOutput {
     }
     std::FILE* const file = std::exchange(file_, nullptr);
     if (std::fclose(file) != 0) refuse();
+    if (temporary_.empty()) return;
     std::error_code problem;
     fs::rename(temporary_, path_, problem);
     if (problem) throw Error(ExitCode::kOutput, path_.string() + ": " + problem.message());
@@ -62,17 +70,20 @@ class TextOutput {
     if (std::fwrite(text_.data(), 1, text_.size(), file_) != text_.size()) refuse();
     text_.clear();
   }
+  void remove_temporary() const {
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  }
   [[noreturn]] void refuse() {
     const int error = errno;
-    std::error_code ignored;
-    if (!path_.empty() && file_ == nullptr) fs::remove(temporary_, ignored);
+    if (file_ == nullptr) remove_temporary();
     throw Error(ExitCode::kOutput, fmt::format("{}: cannot be written: {}",
                                                path_.empty() ? "standard output" : path_.string(),
                                                std::strerror(error)));
   }
 
   const fs::path path_;
-  fs::path temporary_;
+  fs::path temporary_;  ///< renamed in the end; empty: what is there is written into
   std::FILE* file_ = stdout;
   std::string text_;
 };

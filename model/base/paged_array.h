@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -72,18 +73,20 @@ class PagedArray {
     }
   }
   static int temporary_file(std::size_t bytes) {
-    std::string name = std::filesystem::temp_directory_path() / "sheaf-pixels-XXXXXX";
+    std::error_code problem;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
+    if (problem) refuse("the folder for temporary files", problem.value());
+    std::string name = folder / "sheaf-pixels-XXXXXX";
     const int file = mkstemp(name.data());
-    if (file < 0) refuse(errno);
+    if (file < 0) refuse(folder, errno);
     unlink(name.c_str());
     const int reason = posix_fallocate(file, 0, static_cast<off_t>(bytes));
     if (reason == 0) return file;
     close(file);
-    refuse(reason);
+    refuse(folder, reason);
   }
-  [[noreturn]] static void refuse(int reason) {
-    throw Error(ExitCode::kOutput, std::filesystem::temp_directory_path().string() +
-                                       ": no room for the pixels of a large picture: " +
+  [[noreturn]] static void refuse(const std::string& folder, int reason) {
+    throw Error(ExitCode::kOutput, folder + ": no room for the pixels of a large picture: " +
                                        std::strerror(reason) + "; TMPDIR names another folder");
   }
 

@@ -85,7 +85,12 @@ void ClockDomain::run_until(Cycles limit) {
   }
 }
 
-void ClockDomain::advance() {
+void ClockDomain::run() {
+  sc_core::sc_start();
+  if (error_) std::rethrow_exception(error_);
+}
+
+void ClockDomain::advance() try {
   kernel_cycle_ = sc_core::sc_time_stamp().value() / period_.value();
   if (finished_) {
     sc_core::sc_stop();
@@ -122,6 +127,9 @@ void ClockDomain::advance() {
     next_trigger(offset(foreign));
     return;
   }
+} catch (...) {
+  error_ = std::current_exception();
+  sc_core::sc_stop();
 }
 
 void ClockDomain::observe(CycleObserver& observer) {

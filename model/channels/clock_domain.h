@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <exception>
 #include <functional>
 #include <string>
 #include <systemc>
@@ -107,6 +108,10 @@ class ClockDomain : public sc_core::sc_module {
   /// again how far the domain may go.
   void kernel_touched() { limit_ = 0; }
 
+  /// Runs the simulation until it ends. What is thrown within it is thrown here: SystemC itself
+  /// would make a message of its own of an exception that leaves a process.
+  void run();
+
   /// Ends the simulation after the current agent returns.
   void stop() { stopped_ = true; }
   void set_end(Cycles end) { end_ = end; }
@@ -145,6 +150,7 @@ class ClockDomain : public sc_core::sc_module {
   Cycles quantum_ = 0;
   Cycles end_ = kNever;
   std::uint64_t num_wakes_ = 0;
+  std::exception_ptr error_;  ///< thrown within the simulation
   bool stopped_ = false;
   bool ran_dry_ = false;
   bool finished_ = false;

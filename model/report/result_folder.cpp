@@ -8,6 +8,7 @@
 #include <array>
 #include <fstream>
 #include <ranges>
+#include <stdexcept>
 #include <system_error>
 
 #include "base/errors.h"
@@ -19,24 +20,42 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStagingName = ".sheaf-partial";
 constexpr const char* kCompleteMark = "stats.json";
-constexpr std::array kResultNames{"config.toml",     "stats.json",
-                                  "image.exr",       "image.png",
-                                  "summary.txt",     "rays.trace",
-                                  "memory.trace",    "stability.md",
-                                  "stability.csv",   "timeline.perfetto-trace",
-                                  "signals.vcd",     "accuracy.txt",
-                                  "accuracy.csv",    "accuracy.svg",
-                                  "accuracy.png",    "image_error.csv",
-                                  "image_error.svg", "image_error.png"};
+
+// Every file that any command leaves in a folder.
+constexpr std::array kResultNames{"accuracy.csv",
+                                  "accuracy.png",
+                                  "accuracy.svg",
+                                  "accuracy.txt",
+                                  "config.toml",
+                                  "curve.csv",
+                                  "curve.png",
+                                  "curve.svg",
+                                  "heat_node_visits.png",
+                                  "heat_rays.png",
+                                  "heat_triangle_tests.png",
+                                  "image.exr",
+                                  "image.png",
+                                  "image_error.csv",
+                                  "image_error.png",
+                                  "image_error.svg",
+                                  "memory.trace",
+                                  "precision.csv",
+                                  "rays.trace",
+                                  "signals.vcd",
+                                  "stability.csv",
+                                  "stability.md",
+                                  "stats.json",
+                                  "summary.txt",
+                                  "timeline.perfetto-trace"};
 
 /// A finished result, or one whose run was killed. A lone config.toml may be a user's own.
 bool is_result(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / kStagingName, ignored) ||
-         fs::exists(folder / "stability.csv", ignored) ||
-         fs::exists(folder / "accuracy.csv", ignored) ||
-         (fs::exists(folder / "config.toml", ignored) &&
-          fs::exists(folder / kCompleteMark, ignored));
+  const auto has = [&](const char* name) {
+    std::error_code ignored;
+    return fs::exists(folder / name, ignored);
+  };
+  return has(kStagingName) || has("accuracy.csv") || has("curve.csv") || has("stability.csv") ||
+         (has("config.toml") && has(kCompleteMark));
 }
 
 /// The folders that must be made for `folder` to exist, the outermost first.
@@ -71,16 +90,17 @@ ResultFolder::ResultFolder(fs::path folder)
 
 void ResultFolder::prepare() {
   if (folder_.empty()) fail("the output folder has no name; give one with --out");
-  if (fs::exists(folder_)) {
-    if (!fs::is_directory(folder_)) {
-      fail("is no folder; choose another with --out");
-    }
-    if (!fs::is_empty(folder_) && !is_result(folder_)) {
-      fail("holds files that are no result of Sheaf; choose a new folder with --out, or empty it");
-    }
+  if (fs::exists(folder_) && !fs::is_directory(folder_)) {
+    fail("is no folder; choose another with --out");
   }
   for (const fs::path& missing : missing_folders(folder_)) {
     if (fs::create_directory(missing)) made_.push_back(missing);
+  }
+  if (!lock_.take(folder_)) {
+    fail("another run is writing here; wait for its end, or choose another folder with --out");
+  }
+  if (!fs::is_empty(folder_) && !is_result(folder_)) {
+    fail("holds files that are no result of Sheaf; choose a new folder with --out, or empty it");
   }
   fs::remove_all(staging_);
   fs::create_directory(staging_);
@@ -99,6 +119,9 @@ void ResultFolder::remove_made_folders() noexcept {
 }
 
 fs::path ResultFolder::stage(std::string_view name) {
+  if (std::ranges::find(kResultNames, name) == kResultNames.end()) {
+    throw std::logic_error(fmt::format("{} is not listed as the name of a result", name));
+  }
   if (std::ranges::find(staged_, name) == staged_.end()) staged_.emplace_back(name);
   return staging_ / name;
 }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "report/folder_lock.h"
+
 namespace sheaf {
 
 /// The folder of one run's results. Files are staged in a hidden folder inside it and moved to
@@ -15,7 +17,8 @@ namespace sheaf {
 class ResultFolder {
  public:
   /// Opens a new or empty folder, or a former result to be replaced, and proves that it can be
-  /// written. Throws Error(kOutput) otherwise, and for a folder with other things in it.
+  /// written. Throws Error(kOutput) otherwise, for a folder with other things in it, and for one
+  /// into which another run is writing.
   explicit ResultFolder(std::filesystem::path folder);
 
   /// Without commit(): removes what was staged, and the folders that the constructor made.
@@ -25,7 +28,8 @@ class ResultFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
-  /// Where a writer that wants a file name shall write the result called `name`.
+  /// Where a writer that wants a file name shall write the result called `name`, one of those that
+  /// result_folder.cpp lists.
   [[nodiscard]] std::filesystem::path stage(std::string_view name);
 
   /// Stages a file of these bytes; throws Error(kOutput) if they cannot be written.
@@ -43,6 +47,7 @@ class ResultFolder {
   [[noreturn]] void fail(const std::string& problem) const;
 
   std::filesystem::path folder_, staging_;
+  FolderLock lock_;
   std::vector<std::filesystem::path> made_;  ///< folders that did not exist, the outermost first
   std::vector<std::string> staged_;
 };

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <stdexcept>
 
@@ -43,6 +44,7 @@ std::string run_in_child(const std::function<std::string()>& job, unsigned secon
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
     close(ends[0]);
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
     const rlimit limit{seconds, seconds};
     setrlimit(RLIMIT_CPU, &limit);
     write_all(ends[1], job());

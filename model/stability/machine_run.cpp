@@ -70,7 +70,11 @@ bool simulate(const Config& config, const PreparedScene& scene, Frame& frame, St
   return complete;
 }
 
-/// "done", then the numbers; or what went wrong.
+std::string failed(ExitCode code, const std::string& what) {
+  return fmt::format("failed {} {}", static_cast<int>(code), what);
+}
+
+/// "done", then the numbers; or "failed", the exit code and what went wrong.
 std::string run_here(const Config& config, const PreparedScene& scene) {
   try {
     Frame frame(config);
@@ -86,12 +90,31 @@ std::string run_here(const Config& config, const PreparedScene& scene) {
           return simulate<Machine>(config, scene, frame, stats);
       }
     }();
-    if (!complete) return "the frame is not complete";
+    if (!complete) return failed(ExitCode::kBug, "the frame is not complete");
     return fmt::format("done {} {} {}", timed ? stats.count("system.cycles") : 0,
                        hash_picture(frame, config), hash_rays(frame.rays));
+  } catch (const Error& error) {
+    return failed(error.code(), error.what());
   } catch (const std::exception& error) {
-    return error.what();
+    return failed(ExitCode::kBug, error.what());
   }
+}
+
+MachineRun run_of(const std::string& answer) {
+  std::istringstream words(answer);
+  std::string first;
+  int code = 0;
+  MachineRun run;
+  if (words >> first; first == "done") {
+    words >> run.cycles >> run.picture >> run.rays;
+  } else if (first == "failed" && words >> code) {
+    run.code = static_cast<ExitCode>(code);
+    std::getline(words >> std::ws, run.error);
+  } else {
+    run.code = ExitCode::kBug;
+    run.error = answer.empty() ? "said nothing" : answer;
+  }
+  return run;
 }
 
 }  // namespace
@@ -113,12 +136,7 @@ std::vector<std::string> MachineScene::all(const std::vector<std::string>& setti
 MachineRun MachineScene::run(const std::vector<std::string>& settings) const {
   const Config config = resolve_config({}, all(settings));
   const std::string answer = run_in_child([&] { return run_here(config, scene_); }, kSecondsToHang);
-  MachineRun run;
-  std::istringstream words(answer);
-  std::string first;
-  words >> first >> run.cycles >> run.picture >> run.rays;
-  if (first != "done" || !words) run.error = answer.empty() ? "said nothing" : answer;
-  return run;
+  return run_of(answer);
 }
 
 }  // namespace sheaf::stability

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/errors.h"
 #include "base/units.h"
 #include "scene/scene.h"
 #include "system/prepared_scene.h"
@@ -15,6 +16,7 @@ namespace sheaf::stability {
 /// What one machine made of a scene. It ran in a process of its own.
 struct MachineRun {
   std::string error;  ///< empty if the frame was finished and every conservation law held
+  ExitCode code = ExitCode::kOk;  ///< of that error; kBug if it is none that a user can mend
   Cycles cycles = 0;
   std::uint64_t picture = 0;  ///< hash of all pixels
   std::uint64_t rays = 0;     ///< hash of the ray counts by kind and depth

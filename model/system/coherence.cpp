@@ -26,7 +26,7 @@ CoherencePass::CoherencePass(const Config& config, const PreparedScene& scene)
   }
 }
 
-void CoherencePass::run() {
+bool CoherencePass::run(const std::function<bool()>& stop) {
   const int size = static_cast<int>(config_.packet.size);
   PacketShader shader(
       scene_.scene,
@@ -38,6 +38,7 @@ void CoherencePass::run() {
   for (; !order.is_done(); order.next_tile()) {
     TileOrder::Run run;
     while (order.next_run(run)) {
+      if (stop()) return false;
       RayPacket* packet = pool.acquire();
       make_primary_packet(scene_.scene.camera, config_.image, run, *packet);
       pending.push_back(packet);
@@ -56,6 +57,7 @@ void CoherencePass::run() {
       ++secondary_.number;
     }
   }
+  return true;
 }
 
 void CoherencePass::trace(RayPacket& packet, Scope& scope) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "stats/counters.h"
@@ -26,7 +27,9 @@ class CoherencePass {
  public:
   CoherencePass(const Config& config, const PreparedScene& scene);
 
-  void run();
+  /// `stop` is asked at every packet of primary rays; once it says so, the pass ends there. Returns
+  /// whether it is complete.
+  bool run(const std::function<bool()>& stop);
   void report(bool has_secondary, StatsTree& stats) const;
 
   [[nodiscard]] const CoherenceCounts& primary() const { return primary_.counts; }

@@ -232,7 +232,7 @@ bool Machine::run(const Monitor& monitor) {
     domain_.set_monitor([&](Cycles now) { return monitor(primary_source_->progress(), now); });
   }
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
-  sc_core::sc_start();
+  domain_.run();
   const bool cut = !domain_.ran_dry() && !domain_.stopped();
   end_ = cut ? config_.run.max_cycles : domain_.latest() + 1;
   complete_ = domain_.ran_dry() && flow_.finished();

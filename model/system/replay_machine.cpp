@@ -19,7 +19,7 @@ ReplayMachine::ReplayMachine(const Config& config, TraceReader& reader,
       metadata_(metadata),
       domain_("clock_domain", clock_period(config)),
       memory_(config, domain_),
-      schedule_(metadata.memory, errors_, domain_) {
+      schedule_(metadata.memory, domain_) {
   build(reader, mode);
 }
 
@@ -38,7 +38,7 @@ void ReplayMachine::build(TraceReader& reader, ReplayMode mode) {
     MemoryStream records(reader, layout, i);
     if (mode == ReplayMode::kFixed) {
       fixed_.push_back(
-          std::make_unique<FixedUnit>(name.c_str(), layout, std::move(records), errors_, domain_));
+          std::make_unique<FixedUnit>(name.c_str(), layout, std::move(records), domain_));
       add_caches(i, *fixed_.back());
     } else {
       elastic_.push_back(
@@ -58,8 +58,7 @@ bool ReplayMachine::run(const Monitor& monitor) {
   domain_.set_monitor(monitor);
   if (config_.run.max_cycles != 0) domain_.set_end(config_.run.max_cycles);
   if (!elastic_.empty()) schedule_.begin();
-  sc_core::sc_start();
-  errors_.rethrow();
+  domain_.run();
   end_ = domain_.latest() + 1;
   memory_.dram().finish(end_);
   if (!domain_.ran_dry()) return false;

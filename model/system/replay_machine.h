@@ -10,6 +10,7 @@
 #include "tracefile/trace_metadata.h"
 #include "units/elastic_unit.h"
 #include "units/fixed_unit.h"
+#include "units/replay_schedule.h"
 
 namespace sheaf {
 
@@ -45,7 +46,6 @@ class ReplayMachine {
   const TraceMetadata& metadata_;
   ClockDomain domain_;
   MemorySystem memory_;
-  ReplayErrors errors_;
   ReplaySchedule schedule_;
   std::vector<std::unique_ptr<ElasticUnit>> elastic_;  ///< or:
   std::vector<std::unique_ptr<FixedUnit>> fixed_;

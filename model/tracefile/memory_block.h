@@ -43,6 +43,9 @@ struct MemoryBlock {
   }
 };
 
+/// Records of a frame at most. A recorder writes 2^16, and the rest of the step that it is at.
+inline constexpr std::uint32_t kMaxBlockRecords = 1U << 17;
+
 /// A frame's key names its stream and the number of its first record.
 [[nodiscard]] constexpr std::uint64_t memory_key(std::size_t stream, std::uint64_t first) {
   return std::uint64_t{stream} << 48 | first;

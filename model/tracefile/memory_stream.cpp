@@ -7,19 +7,32 @@
 #include "tracefile/columns.h"
 
 namespace sheaf {
+namespace {
+
+// What keeps a small file from asking for much memory or text. A record touches a node, a
+// triangle, a texel or a pixel, of 128 bytes at most (MemoryMap, FilmFormat::kExact), or a leaf's
+// list: 4 bytes for each of the triangles that records of their own follow for. The rest is for
+// lists whose triangles were still to come when the recording was cut short.
+constexpr std::uint64_t kBytesPerRecord = 256;
+constexpr std::uint64_t kBytesCutShort = std::uint64_t{1} << 16;
+
+}  // namespace
 
 MemoryStream::MemoryStream(TraceReader& reader, const MemoryLayout& layout, std::size_t stream)
     : reader_(reader), layout_(layout), stream_(stream) {
-  std::uint64_t records = 0;
   for (const TraceFrame& frame : reader.frames()) {
     if (stream_of_key(frame.key) >= layout.streams.size()) {
       reader.refuse(frame, "there are records of a stream that the metadata do not name");
     }
     if (stream_of_key(frame.key) != stream) continue;
-    if (first_of_key(frame.key) != records) reader.refuse(frame, "records are missing before it");
-    records += frame.num_records;
+    if (first_of_key(frame.key) != num_records_) {
+      reader.refuse(frame, "records are missing before it");
+    }
+    if (frame.num_records > kMaxBlockRecords) reader.refuse(frame, "it has too many records");
+    num_records_ += frame.num_records;
     frames_.push_back(frame);
   }
+  allowance_ = kBytesPerRecord * num_records_ + kBytesCutShort;
 }
 
 bool MemoryStream::load() {
@@ -32,10 +45,19 @@ bool MemoryStream::load() {
   } catch (const BadColumn& problem) {
     reader_.refuse(frame, problem.what());
   }
+  count_bytes(frame);
   first_ = first_of_key(frame.key);
   next_record_ = 0;
   next_chain_ = 0;
   return !block_.records.empty() || load();
+}
+
+void MemoryStream::count_bytes(const TraceFrame& frame) {
+  for (const MemoryRecord& record : block_.records) {
+    const std::uint64_t bytes = layout_.operations[record.operation].bytes;
+    if (bytes > allowance_) reader_.refuse(frame, "its records touch more than there can be");
+    allowance_ -= bytes;
+  }
 }
 
 MemoryAccesses::MemoryAccesses(TraceReader& reader, const MemoryLayout& layout) : layout_(layout) {

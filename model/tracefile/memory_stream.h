@@ -14,8 +14,11 @@ namespace sheaf {
 /// Reading throws Error(kTrace) for a frame that is not what it should be.
 class MemoryStream {
  public:
-  /// Both must stay.
+  /// Both must stay. Throws Error(kTrace) for frames that are not those of a stream.
   MemoryStream(TraceReader& reader, const MemoryLayout& layout, std::size_t stream);
+
+  /// Number of its records.
+  [[nodiscard]] std::uint64_t size() const { return num_records_; }
 
   /// The record that comes next, or null at the end.
   [[nodiscard]] const MemoryRecord* peek() {
@@ -36,11 +39,14 @@ class MemoryStream {
 
  private:
   bool load();
+  void count_bytes(const TraceFrame& frame);
 
   TraceReader& reader_;
   const MemoryLayout& layout_;
   const std::size_t stream_;
   std::vector<TraceFrame> frames_;
+  std::uint64_t num_records_ = 0;
+  std::uint64_t allowance_ = 0;  ///< bytes that the records to come may touch
   std::size_t next_frame_ = 0;
   ByteVector raw_;
   MemoryBlock block_;

@@ -8,6 +8,8 @@
 namespace sheaf {
 namespace {
 
+constexpr std::uint64_t kAccessesBetweenStops = std::uint64_t{1} << 14;
+
 /// Takes lines together, so that those to come can be fetched ahead.
 class CurveBuilder {
  public:
@@ -103,10 +105,13 @@ double MissCurveOfStream::miss_ratio(std::uint64_t ways) const {
 
 std::vector<MissCurveOfStream> measure_miss_curves(MemoryAccesses& accesses,
                                                    const MemoryLayout& layout,
-                                                   const std::vector<CurveShape>& shapes) {
+                                                   const std::vector<CurveShape>& shapes,
+                                                   const std::function<bool()>& stop) {
   std::vector<ShapeCurves> all;
   for (const CurveShape& shape : shapes) all.emplace_back(layout, shape);
+  std::uint64_t num_accesses = 0;
   for (auto access = accesses.next(); access.record != nullptr; access = accesses.next()) {
+    if (num_accesses++ % kAccessesBetweenStops == 0 && stop()) break;
     for (ShapeCurves& curves : all) curves.add(access);
   }
   std::vector<MissCurveOfStream> curves;

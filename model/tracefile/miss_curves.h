@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,11 @@ struct CurveShape {
 };
 
 /// One pass over a memory trace: for each shape, the curve of all accesses through one cache, of
-/// each kind of data through a cache of its own, and of each recorded cache's accesses.
+/// each kind of data through a cache of its own, and of each recorded cache's accesses. `stop` is
+/// asked now and then; once it says so, the curves are those of the accesses so far.
 [[nodiscard]] std::vector<MissCurveOfStream> measure_miss_curves(
-    MemoryAccesses& accesses, const MemoryLayout& layout, const std::vector<CurveShape>& shapes);
+    MemoryAccesses& accesses, const MemoryLayout& layout, const std::vector<CurveShape>& shapes,
+    const std::function<bool()>& stop = [] { return false; });
 
 /// A capacity, a power of two, up to which doubling saves much and beyond which it saves little:
 /// the last doubling saved at least kKneeShare of the accesses, and twice what the next one would.

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -66,15 +68,24 @@ json to_json(const MemoryLayout& layout) {
 // What a replay could not cope with is refused here.
 template <typename T>
 T number_from(const json& object, const char* key, std::uint64_t least, std::uint64_t most) {
-  const auto value = object.at(key).get<std::uint64_t>();
-  if (value < least || value > most || object.at(key).is_number_float()) {
-    throw BadMetadata(fmt::format("{} is {}, not {} to {}", key, value, least, most));
+  const json& value = object.at(key);
+  // What the parser takes for unsigned is a whole number from 0 to 2^64 - 1.
+  if (!value.is_number_unsigned()) {
+    throw BadMetadata(fmt::format("{} is no whole number from {} to {}", key, least, most));
   }
-  return static_cast<T>(value);
+  const auto number = value.get<std::uint64_t>();
+  if (number < least || number > most) {
+    throw BadMetadata(fmt::format("{} is {}, not {} to {}", key, number, least, most));
+  }
+  return static_cast<T>(number);
 }
 
-constexpr std::uint64_t kMaxStreams = 4096;
+// 64 units of three kinds (parameters.cpp) and the film, each with one or two caches.
+constexpr std::uint64_t kMaxStreams = 256;
+constexpr std::uint64_t kMaxCaches = 4;
 constexpr std::uint64_t kMaxLatency = 1'000'000'000;
+constexpr std::uint64_t kMaxEdge = 16384;                    // of a picture: parameters.cpp
+constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 53;  // of cycles or rays
 
 DataKind kind_from(const std::string& name) {
   for (std::size_t i = 0; i < kNumDataKinds; ++i) {
@@ -103,6 +114,7 @@ MemoryTraceStream stream_from(const json& value) {
   stream.turnaround = number_from<Cycles>(value, "turnaround", 0, kMaxLatency);
   stream.retry_interval = number_from<Cycles>(value, "retry_interval", 1, kMaxLatency);
   stream.awaited = value.at("awaited").get<bool>();
+  if (value.at("caches").size() > kMaxCaches) throw BadMetadata("a unit has too many caches");
   for (const json& cache : value.at("caches")) {
     stream.caches.push_back({name_from(cache, "name"), name_from(cache, "group")});
   }
@@ -136,10 +148,11 @@ void check_group(const MemoryLayout& layout, const MemoryTraceStream& stream) {
 
 MemoryLayout layout_from(const json& value) {
   MemoryLayout layout;
-  for (const json& stream : value.at("streams")) layout.streams.push_back(stream_from(stream));
-  if (layout.streams.empty() || layout.streams.size() > kMaxStreams) {
-    throw BadMetadata(fmt::format("there are {} streams", layout.streams.size()));
+  const std::size_t num_streams = value.at("streams").size();
+  if (num_streams == 0 || num_streams > kMaxStreams) {
+    throw BadMetadata(fmt::format("there are {} streams, not 1 to {}", num_streams, kMaxStreams));
   }
+  for (const json& stream : value.at("streams")) layout.streams.push_back(stream_from(stream));
   std::set<std::string> names;
   for (const MemoryTraceStream& stream : layout.streams) {
     for (const MemoryTraceCache& cache : stream.caches) {
@@ -156,8 +169,16 @@ MemoryLayout layout_from(const json& value) {
   return layout;
 }
 
+float real_from(const json& value) {
+  const auto number = value.get<double>();
+  if (!(std::abs(number) <= std::numeric_limits<float>::max())) {
+    throw BadMetadata("a number of the camera is too large");
+  }
+  return static_cast<float>(number);
+}
+
 Vec3 vec_from(const json& value) {
-  return {value.at(0).get<float>(), value.at(1).get<float>(), value.at(2).get<float>()};
+  return {real_from(value.at(0)), real_from(value.at(1)), real_from(value.at(2))};
 }
 
 Camera camera_from(const json& value) {
@@ -167,7 +188,7 @@ Camera camera_from(const json& value) {
   c.up = vec_from(value.at("up"));
   c.forward = vec_from(value.at("forward"));
   c.orthographic = value.at("orthographic").get<bool>();
-  c.half_height = value.at("half_height").get<float>();
+  c.half_height = real_from(value.at("half_height"));
   return c;
 }
 
@@ -199,10 +220,10 @@ TraceMetadata read_metadata(const TraceReader& reader) {
     metadata.scene_path = all.at("scene").at("path").get<std::string>();
     metadata.config = all.at("config").get<std::string>();
     metadata.complete = all.at("complete").get<bool>();
-    metadata.cycles = all.at("cycles").get<std::uint64_t>();
-    metadata.num_rays = all.at("rays").get<std::uint64_t>();
-    metadata.width = all.at("image").at("width").get<std::uint32_t>();
-    metadata.height = all.at("image").at("height").get<std::uint32_t>();
+    metadata.cycles = number_from<std::uint64_t>(all, "cycles", 0, kMaxCount);
+    metadata.num_rays = number_from<std::uint64_t>(all, "rays", 0, kMaxCount);
+    metadata.width = number_from<std::uint32_t>(all.at("image"), "width", 0, kMaxEdge);
+    metadata.height = number_from<std::uint32_t>(all.at("image"), "height", 0, kMaxEdge);
     if (reader.identity().kind == TraceKind::kRays) {
       metadata.camera = camera_from(all.at("camera"));
     } else {

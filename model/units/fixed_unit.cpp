@@ -9,12 +9,8 @@
 namespace sheaf {
 
 FixedUnit::FixedUnit(const sc_core::sc_module_name& name, const MemoryLayout& layout,
-                     MemoryStream records, ReplayErrors& errors, ClockDomain& domain)
-    : sc_module(name),
-      layout_(layout),
-      records_(std::move(records)),
-      errors_(errors),
-      domain_(domain) {
+                     MemoryStream records, ClockDomain& domain)
+    : sc_module(name), layout_(layout), records_(std::move(records)), domain_(domain) {
   inbox_.bind(domain, domain.add(*this));
   domain.schedule(inbox_.agent(), 0);
 }
@@ -61,8 +57,8 @@ void FixedUnit::take_lines(Cycles now) {
   }
 }
 
-// The next step that accesses something. An exception has nowhere to go from within a simulation.
-bool FixedUnit::load_step() try {
+// The next step that accesses something.
+bool FixedUnit::load_step() {
   const MemoryRecord* record = records_.peek();
   while (record != nullptr && layout_.operations[record->operation].bytes == 0) {
     records_.pop();
@@ -81,11 +77,6 @@ bool FixedUnit::load_step() try {
   keep_each_once(lines_);
   std::ranges::reverse(lines_);
   return true;
-} catch (...) {
-  errors_.fail(std::current_exception());
-  domain_.stop();
-  all_read_ = true;
-  return false;
 }
 
 // False if an MSHR is lacking.

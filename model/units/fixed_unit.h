@@ -7,7 +7,6 @@
 
 #include "memory/private_cache.h"
 #include "tracefile/memory_stream.h"
-#include "units/replay_schedule.h"
 
 namespace sheaf {
 
@@ -17,7 +16,7 @@ namespace sheaf {
 class FixedUnit final : public sc_core::sc_module, public Agent {
  public:
   FixedUnit(const sc_core::sc_module_name& name, const MemoryLayout& layout, MemoryStream records,
-            ReplayErrors& errors, ClockDomain& domain);
+            ClockDomain& domain);
 
   /// In the order of the stream's caches, all of them before the simulation starts.
   void add_cache(const CacheSpec& spec, TimedOut<LineRequest>& requests, std::uint16_t requester,
@@ -44,7 +43,6 @@ class FixedUnit final : public sc_core::sc_module, public Agent {
 
   const MemoryLayout& layout_;
   MemoryStream records_;
-  ReplayErrors& errors_;
   ClockDomain& domain_;
   Inbox inbox_;
   std::vector<std::unique_ptr<Own>> caches_;

@@ -3,14 +3,14 @@
 #include "units/replay_schedule.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <utility>
 
 namespace sheaf {
 
-ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors,
-                               ClockDomain& domain)
-    : layout_(layout), errors_(errors), domain_(domain), agent_(domain.add(*this)) {
+ReplaySchedule::ReplaySchedule(const MemoryLayout& layout, ClockDomain& domain)
+    : layout_(layout), domain_(domain), agent_(domain.add(*this)) {
   std::map<std::string, std::size_t> numbers;
   for (std::size_t i = 0; i < layout.streams.size(); ++i) {
     Stream& stream = streams_.emplace_back();
@@ -26,6 +26,10 @@ void ReplaySchedule::add(ReplayedUnit& unit, MemoryStream records) {
   const auto is_new = [](const Stream& stream) { return stream.unit == nullptr; };
   const auto stream = std::ranges::find_if(streams_, is_new);
   stream->unit = &unit;
+  const auto room_for = [&](std::size_t most) {
+    return std::bit_ceil(std::clamp<std::size_t>(records.size(), 1, most));
+  };
+  stream->steps = StepWindow(room_for(StepWindow::kLeast), room_for(StepWindow::kMost));
   stream->reader = std::make_unique<ChainReader>(
       std::move(records), static_cast<std::size_t>(stream - streams_.begin()), chains_);
 }
@@ -44,20 +48,12 @@ void ReplaySchedule::read_ahead(Cycles recorded, Cycles now) {
   advance_epoch(now);
 }
 
-void ReplaySchedule::fail() {
-  errors_.fail(std::current_exception());
-  domain_.stop();
-}
-
-bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) try {
+bool ReplaySchedule::has_step(ReplayChain& chain, Cycles now) {
   if (chain.next != chain.steps.size()) return true;
   ChainReader& reader = *streams_[chain.stream].reader;
   const bool has = reader.has_step(chain, [&](ReplayChain& read) { take_in(read, now); });
   advance_epoch(now);
   return has;
-} catch (...) {
-  fail();
-  return false;
 }
 
 void ReplaySchedule::take_in(ReplayChain& chain, Cycles now) {
@@ -134,25 +130,20 @@ ReplayChain* ReplaySchedule::next_waiting(std::size_t stream) {
   return chain;
 }
 
-void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context,
-                               Cycles now) try {
+void ReplaySchedule::step_done(ReplayChain& chain, ReplayedUnit& unit, int context, Cycles now) {
   StepState& step = streams_[chain.stream].steps.at(chain.steps[chain.next].number);
   step.done = now;
   step.unit = &unit;
   step.context = static_cast<std::uint8_t>(context);
   tell_waiters(step, false, now);
-} catch (...) {
-  fail();
 }
 
-void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) try {
+void ReplaySchedule::leave_step(ReplayChain& chain, Cycles now) {
   Stream& stream = streams_[chain.stream];
   const ReplayStep& left = chain.steps[chain.next];
   stream.steps.at(left.number).left = true;
   stream.reader->leave_step(chain);
   read_ahead(left.record.cycle, now);
-} catch (...) {
-  fail();
 }
 
 void ReplaySchedule::chain_ended(ReplayChain& chain, std::uint64_t record, Cycles now) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <memory>
 #include <queue>
@@ -28,28 +27,13 @@ class ReplayedUnit {
   virtual void all_done(Cycles now) = 0;
 };
 
-/// Error(kTrace) thrown while a trace was read in the middle of a replay, to be thrown again after
-/// it: from within a simulation an exception has nowhere to go.
-class ReplayErrors {
- public:
-  void fail(std::exception_ptr error) {
-    if (!error_) error_ = std::move(error);
-  }
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  std::exception_ptr error_;
-};
-
 /// Lets the chains of a trace begin when what they waited for is done, each on the unit of its
 /// group with the most free contexts, or on the first one that gets a context free; of chains that
 /// wait for one, the first to have begun in the recording goes first, so that the choices of the
 /// arbiter are kept.
 class ReplaySchedule final : public Agent {
  public:
-  ReplaySchedule(const MemoryLayout& layout, ReplayErrors& errors, ClockDomain& domain);
+  ReplaySchedule(const MemoryLayout& layout, ClockDomain& domain);
 
   /// The unit of the stream, and its records. All of them, in order, before the simulation.
   void add(ReplayedUnit& unit, MemoryStream records);
@@ -104,7 +88,6 @@ class ReplaySchedule final : public Agent {
   };
 
   void read_ahead(Cycles recorded, Cycles now);
-  void fail();
   void take_in(ReplayChain& chain, Cycles now);
   void await(ReplayChain& chain, Cycles now);
   void tell_waiters(StepState& step, bool ended, Cycles now);
@@ -114,7 +97,6 @@ class ReplaySchedule final : public Agent {
   void advance_epoch(Cycles now);
 
   const MemoryLayout& layout_;
-  ReplayErrors& errors_;
   ClockDomain& domain_;
   const std::size_t agent_;
   ObjectPool<ReplayChain> chains_;

@@ -69,7 +69,7 @@ class StepWindow {
   }
 
   std::vector<StepState> steps_;  ///< a power of two; those from first_ on
-  const std::size_t most_;
+  std::size_t most_;
   std::uint64_t first_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "fuzz_input.h"
 #include "tracefile/memory_stream.h"
+#include "tracefile/miss_curves.h"
 #include "tracefile/trace_metadata.h"
 #include "tracefile/trace_reader.h"
 #include "tracefile/trace_writer.h"
@@ -35,6 +36,16 @@ void read_accesses(const std::filesystem::path& path) {
   }
 }
 
+void make_curves(const std::filesystem::path& path) {
+  sheaf::TraceReader reader(path);
+  const sheaf::MemoryLayout layout = sheaf::read_metadata(reader).memory;
+  sheaf::MemoryAccesses accesses(reader, layout);
+  const auto curves = sheaf::measure_miss_curves(accesses, layout, {{64, 1}, {16, 8}});
+  for (const sheaf::MissCurveOfStream& curve : curves) {
+    if (curve.points.empty() || curve.points.back().misses > curve.num_accesses) std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -45,6 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   sheaf::test::read_file("memory.trace", [&](const std::filesystem::path& path) {
     seal(path, metadata, {frame, end});
     read_accesses(path);
+    make_curves(path);
   });
   return 0;
 }

@@ -145,6 +145,20 @@ TEST(AccuracyCommand, RefusesWhatItCannotCompare) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+TEST(AccuracyCommand, LeavesOutWhatCannotBeFormedWhereNoRayMeetsTheScene) {
+  const ScratchFolder scratch;
+  const CommandResult result = run_sheaf(
+      arguments(scratch / "out", {"--reference", "timed", "--set", "camera.position=[0,1000,0]",
+                                  "--set", "camera.look_at=[0,2000,1]"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" - "), std::string::npos) << result.out;
+  for (const auto& row : read_csv(scratch / "out" / "accuracy.csv")) {
+    EXPECT_EQ(row.at("p_t_primary_error"), "");
+    EXPECT_EQ(row.at("p_t_secondary_error"), "");
+  }
+}
+
 TEST(AccuracyCommand, EndsAtOnceWhenInterrupted) {
   const ScratchFolder scratch;
   std::vector<std::string> large = arguments(scratch / "out");

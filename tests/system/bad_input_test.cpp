@@ -202,6 +202,14 @@ TEST_F(BadInput, CreditsThatAdmitNoPacket) {
                   ExitCode::kUsage, {"flow.credits"});
 }
 
+// Cycles of a millisecond each: SystemC's 64 bits of picoseconds are over before the frame is.
+TEST_F(BadInput, ClockTooSlowForTheFrame) {
+  expect_no_trace(committed_scene("sponza"),
+                  {"clock.frequency=1kHz", "traversal_unit.initiation_interval=1000000",
+                   "traversal_unit.count=1", "traversal_unit.lanes=1"},
+                  ExitCode::kUsage, {"clock.frequency", "choose a faster clock"});
+}
+
 TEST_F(BadInput, OutputThatCannotBeWritten) {
   write_bytes(scratch_ / "file", "a user's own");
   expect_output_refused(scratch_ / "file", {"file"});

@@ -148,7 +148,7 @@ using MaskedTraversal = SameImage;
 
 TEST_P(MaskedTraversal, HasAsManyActiveLanesAsItsRaysHaveVisitsAlone) {
   CoherencePass alone(scene_.base(), scene_.prepared());
-  alone.run();
+  ASSERT_TRUE(alone.run([] { return false; }));
   for (const char* heuristic : {"none", "dir", "mdir(24)", "fastpos", "pos(1.0)", "opos"}) {
     const std::string sorted = std::string("ray_cache.heuristic=") + heuristic;
     const Outcome masked = scene_.run({sorted, "traversal.scheme=masked"});

@@ -4,8 +4,12 @@
 // The committed traces: what is told of them, what is exported, and that their curves are those of
 // caches simulated one by one.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -71,6 +75,38 @@ TEST(TraceCommand, ExportsWhatOurOwnMemoryCanReadAgain) {
       run_sheaf({"trace", "export", committed_trace("sponza-rays").string()});
   EXPECT_EQ(rays.exit_code, 6);
   EXPECT_NE(rays.err.find("record it with --record memory"), std::string::npos) << rays.err;
+}
+
+/// What comes out of a pipe until its writer closes it, or it is a pipe no longer.
+std::string read_pipe(const std::string& pipe, int file) {
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (std::filesystem::is_fifo(pipe)) {
+    const ssize_t count = read(file, buffer.data(), buffer.size());
+    if (count == 0 && !text.empty()) break;
+    if (count > 0) {
+      text.append(buffer.data(), static_cast<std::size_t>(count));
+    } else {
+      usleep(1000);
+    }
+  }
+  return text;
+}
+
+TEST(TraceCommand, ExportsIntoAPipeAndLeavesItThere) {
+  const ScratchFolder scratch;
+  const std::string pipe = (scratch / "pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int file = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(file, 0);
+  const std::string trace = committed_trace("dragon-memory").string();
+  std::string text;
+  const CommandResult result = run_sheaf({"trace", "export", trace, "--out", pipe},
+                                         [&](pid_t) { text = read_pipe(pipe, file); });
+  close(file);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_TRUE(text == run_sheaf({"trace", "export", trace}).out);
 }
 
 // Requests are those of untimed caches, so they need not be as many as in time, but nearly.

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <set>
 #include <utility>
 
+#include "base/errors.h"
 #include "timing/bench.h"
 
 namespace sheaf::test {
@@ -15,6 +17,26 @@ namespace {
 struct Bench : testing::Test {
   ClockDomain domain{"domain", one_nanosecond()};
 };
+
+TEST_F(Bench, ThrowsWhatAnAgentThrewAndNothingElse) {
+  Actor actor(domain);
+  actor.at(7, [] { throw Error(ExitCode::kUsage, "place: problem; remedy"); });
+  actor.at(8, [] {});
+  try {
+    domain.run();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_STREQ(error.what(), "place: problem; remedy");
+  }
+  EXPECT_EQ(actor.wakes, (std::vector<Cycles>{7}));
+}
+
+TEST_F(Bench, LetsLackOfMemoryBeToldApart) {
+  Actor actor(domain);
+  actor.at(7, [] { throw std::bad_alloc(); });
+  EXPECT_THROW(domain.run(), std::bad_alloc);
+}
 
 TEST_F(Bench, WakesAgentsInOrderOfTimeThenRank) {
   std::vector<int> order;

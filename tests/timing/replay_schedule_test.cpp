@@ -74,16 +74,14 @@ struct ReplayScheduleTest : testing::Test {
   /// When the second unit's chain began.
   Cycles replay() {
     TraceReader reader(path);
-    ReplayErrors errors;
     ClockDomain domain("domain", one_nanosecond());
-    ReplaySchedule schedule(layout, errors, domain);
+    ReplaySchedule schedule(layout, domain);
     SlowUnit first(schedule, domain);
     SlowUnit second(schedule, domain);
     schedule.add(first, MemoryStream(reader, layout, 0));
     schedule.add(second, MemoryStream(reader, layout, 1));
     schedule.begin();
-    sc_core::sc_start();
-    errors.rethrow();
+    domain.run();
     EXPECT_TRUE(schedule.all_done());
     EXPECT_EQ(first.begun, (std::vector<Cycles>{1}));
     answers = first.answers;

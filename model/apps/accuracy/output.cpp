@@ -36,7 +36,11 @@ std::size_t p_t_of(const LevelRun& reference) {
   return any ? secondary : quantity_named("p_t_primary");
 }
 
+// What could not be formed, such as p_t where no ray meets the scene, is a dash for people and
+// nothing in a CSV file.
+
 std::string percent(double share) {
+  if (!std::isfinite(share)) return "-";
   return share == 0.0 ? "0" : fmt::format("{:+.3f}", 100.0 * share);
 }
 
@@ -124,10 +128,10 @@ std::string accuracy_csv(const AccuracyResult& result) {
   const std::vector<bool> front = pareto_front(result.runs, result.reference);
   for (std::size_t i = 0; i < result.runs.size(); ++i) {
     const LevelRun& run = result.runs[i];
-    csv += fmt::format("{},{},{},{:.6f},{:.6f},{:.6g},{}", run.level.name,
+    csv += fmt::format("{},{},{},{:.6f},{:.6f},{},{}", run.level.name,
                        fmt::join(run.level.settings, " "), result.reference.level.name,
                        run.processor_seconds, run.wall_seconds,
-                       run.reliable_within(result.reference), front[i] ? 1 : 0);
+                       number(run.reliable_within(result.reference)), front[i] ? 1 : 0);
     for (std::size_t q = 0; q < run.quantities.size(); ++q) {
       csv += fmt::format(",{},{},{}", number(run.quantities[q].value),
                          number(run.error(q, result.reference)),

@@ -61,7 +61,15 @@ TEST(PagedArray, SaysWhereThereIsNoRoom) {
   const std::string folder = old == nullptr ? "" : old;
   const std::string gone = testing::TempDir() + "sheaf_no_such_folder";
   setenv("TMPDIR", gone.c_str(), 1);
-  EXPECT_ANY_THROW(PagedArray<std::uint32_t>(1000, 0));
+  try {
+    const PagedArray<std::uint32_t> numbers(1000, 0);
+    ADD_FAILURE() << "it was made";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kOutput);
+    EXPECT_STREQ(error.what(),
+                 "the folder for temporary files: no room for the pixels of a large picture: No "
+                 "such file or directory; TMPDIR names another folder");
+  }
   if (old == nullptr) {
     unsetenv("TMPDIR");
   } else {

@@ -3,8 +3,10 @@
 #include "report/result_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <set>
@@ -101,6 +103,38 @@ TEST_F(ResultFolderTest, ANewResultReplacesTheFormerOneWhole) {
   finish_a_run(folder, "second");
   EXPECT_EQ(get(folder / "stats.json"), "second");
   EXPECT_EQ(names_in(folder), (std::set<std::string>{"config.toml", "stats.json", "notes.txt"}));
+}
+
+TEST_F(ResultFolderTest, HasNoNameThatASuccessorWouldNotRemove) {
+  ResultFolder result(root_ / "result");
+  EXPECT_THROW(static_cast<void>(result.stage("other.csv")), std::logic_error);
+}
+
+TEST_F(ResultFolderTest, ASecondRunAtTheSameTimeIsRefusedAndLeavesTheFirstAlone) {
+  const fs::path folder = root_ / "result";
+  ResultFolder first(folder);
+  first.write("config.toml", "first");
+  EXPECT_EQ(refusal(folder), folder.string() +
+                                 ": another run is writing here; wait for its end, or choose "
+                                 "another folder with --out");
+  first.write("stats.json", "first");
+  first.commit();
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{"config.toml", "stats.json"}));
+}
+
+TEST_F(ResultFolderTest, IsFreeAgainAfterARunThatWasKilled) {
+  const fs::path folder = root_ / "result";
+  const pid_t child = fork();
+  if (child == 0) {
+    const ResultFolder killed(folder);
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ASSERT_TRUE(fs::exists(folder / ".sheaf-partial"));
+  finish_a_run(folder, "second");
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{"config.toml", "stats.json"}));
 }
 
 TEST_F(ResultFolderTest, AKilledRunCanBeRunAgain) {
