@@ -33,6 +33,7 @@ _EXIT_MEANINGS = {
     3: "scene refused",
     4: "result not written",
     5: "machine stuck",
+    6: "trace refused",
 }
 
 
