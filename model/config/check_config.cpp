@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 #include "config/dram/device.h"
 #include "config/parameters.h"

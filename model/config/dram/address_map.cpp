@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 
 namespace sheaf {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 
 namespace sheaf {
