@@ -86,6 +86,35 @@ TEST(TraceCommand, ExportsAboutTheRequestsThatTheRunMade) {
   EXPECT_NEAR(reads / live, 1.0, 0.02);
 }
 
+// A small L2, so that what it keeps matters.
+class ExportedRequests : public testing::TestWithParam<const char*> {};
+
+TEST_P(ExportedRequests, AreAboutThoseOfTheRecordedRunWhateverItsCaches) {
+  const ScratchFolder scratch;
+  std::vector<std::string> run =
+      run_arguments(committed_scene("dragon"), scratch / "run",
+                    {"image.width=48", "image.height=40", "l2.capacity=32KiB", GetParam()});
+  run.insert(run.end(), {"--record", "memory"});
+  ASSERT_EQ(run_sheaf(run).exit_code, 0);
+  double reads = 0;
+  double writes = 0;
+  const std::string trace = (scratch / "run/memory.trace").string();
+  for (const std::string& line : lines_of(run_sheaf({"trace", "export", trace}).out)) {
+    (line.find("READ") != std::string::npos ? reads : writes) += 1;
+  }
+  const nlohmann::json live = read_stats(scratch / "run");
+  EXPECT_NEAR(reads / live.at("system.dram.num_reads").at("value").get<double>(), 1.0, 0.02);
+  EXPECT_NEAR(writes / live.at("system.dram.num_writes").at("value").get<double>(), 1.0, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Caches, ExportedRequests,
+                         testing::Values("l2.replacement=lru", "l2.replacement=plru",
+                                         "l2.replacement=fifo", "l2.replacement=random",
+                                         "l2.sectors=2", "node_cache.replacement=random",
+                                         "l2.write_policy=through", "l2.write_allocate=true",
+                                         "film_cache.write_policy=through",
+                                         "film_cache.write_allocate=false", "l2.mode=absent"));
+
 /// Misses of one cache with LRU, simulated by itself on all accesses of a trace.
 std::uint64_t simulate(const std::string& trace, const CurveShape& shape, std::uint32_t ways) {
   TraceReader reader(committed_trace(trace));
