@@ -27,7 +27,7 @@ void declare_run(ParameterTable& t, Config& c) {
   t.count("run.sample_seed", c.run.sample_seed, 1, 0, kMaxCount, "",
           "sampled: seed of the choice of tiles");
   t.count("run.max_cycles", c.run.max_cycles, 0, 0, kMaxCount, "cycles",
-          "End the run, marked as partial, after this many cycles; 0 = no limit");
+          "End a run in time, marked as partial, after this many cycles; 0 = no limit");
   t.flag("run.keep_all", c.run.keep_all, false,
          "Build every unit that the configuration allows, needed by the scene or not");
   t.count("image.width", c.image.width, 640, 1, 16384, "pixels", "Width of the picture");
