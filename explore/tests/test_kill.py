@@ -218,7 +218,7 @@ def test_a_run_whose_parent_is_gone_does_not_begin(
         text=True,
         check=False,
     )
-    assert done.returncode == 130
+    assert done.returncode == 2
     assert "--parent 1" in done.stderr
     assert not (tmp_path / "out").exists()
 

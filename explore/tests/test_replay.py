@@ -91,6 +91,13 @@ def test_points_share_a_recording_if_they_differ_in_the_machine_alone() -> None:
     assert replayable(near.settings) == {"l2.ways": 4}
 
 
+def test_points_with_heat_maps_are_traced_live() -> None:
+    scene = Source("scene", Path("a.glb"), "a.glb")
+    settings = [{"image.heat_maps": "rays", "l2.ways": ways} for ways in (4, 8)]
+    points = [Point(scene, {}, each) for each in settings]
+    assert [p.mode for p in mark_replayed(points)] == ["live", "live"]
+
+
 def test_a_simulator_that_cannot_record_is_told_with_file_and_line(
     explore: Explore, write_spec: Write, stand_in: Simulator, tmp_path: Path
 ) -> None:

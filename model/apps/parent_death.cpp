@@ -16,7 +16,7 @@ void end_with_parent(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // A parent that ended before the line above sends no signal any more.
   if (getppid() != parent) {
-    throw Error(ExitCode::kInterrupted,
+    throw Error(ExitCode::kUsage,
                 fmt::format("--parent {}: this is not the process that started the run", parent));
   }
 }

@@ -12,6 +12,7 @@
 #include "apps/memory_replay.h"
 #include "apps/parent_death.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
 #include "tracefile/ray_lookup.h"

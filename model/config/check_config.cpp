@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 #include "config/dram/device.h"
 #include "config/parameters.h"
@@ -124,6 +125,16 @@ void check_flow(const Config& c) {
   }
 }
 
+void check_run(const RunSpec& run) {
+  const bool timed = run.fidelity != Fidelity::kFunctional && run.fidelity != Fidelity::kAnalytic;
+  if (run.max_cycles != 0 && !timed) {
+    refuse(
+        fmt::format("run.max_cycles = {} ends a run that takes cycles one after the other; set "
+                    "it to 0, or run.fidelity to another than functional and analytic",
+                    run.max_cycles));
+  }
+}
+
 void check_view(const Config& c) {
   if (c.camera.position && c.camera.position == c.camera.look_at) {
     refuse("camera.position and camera.look_at are the same point; the camera needs a direction");
@@ -168,6 +179,7 @@ void check_config(const Config& config) {
   check_memory(config);
   check_flow(config);
   check_view(config);
+  check_run(config.run);
   static_cast<void>(heat_map_names(config.image));
 }
 

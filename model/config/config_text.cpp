@@ -7,12 +7,11 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "config/parameters.h"
 
 namespace sheaf {
 namespace {
-
-constexpr std::size_t kLineWidth = 100;
 
 struct Group {
   std::string name;  ///< what stands before the key's last dot: the TOML table
@@ -31,22 +30,6 @@ std::vector<Group> groups_of(const ParameterTable& table) {
   return groups;
 }
 
-/// Breaks `text` at spaces into lines that begin with `indent` and fit the line width.
-std::string wrapped(std::string_view text, std::string_view indent) {
-  std::string out;
-  while (!text.empty()) {
-    const std::size_t room = kLineWidth - indent.size();
-    std::size_t length = text.size();
-    if (length > room) {
-      length = text.rfind(' ', room);
-      if (length == std::string_view::npos) length = std::min(text.find(' '), text.size());
-    }
-    out += fmt::format("{}{}\n", indent, text.substr(0, length));
-    text.remove_prefix(std::min(length + 1, text.size()));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string toml_string(std::string_view text) {
@@ -62,16 +45,6 @@ std::string toml_string(std::string_view text) {
     }
   }
   return out + '"';
-}
-
-std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 120;
-  std::string out(text.substr(0, kLongest));
-  for (char& c : out) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  if (text.size() > kLongest) out += "...";
-  return out;
 }
 
 std::string config_toml(const Config& config, Comments comments) {

@@ -13,9 +13,6 @@ namespace sheaf {
 /// `text` as a TOML basic string, with its quotes.
 [[nodiscard]] std::string toml_string(std::string_view text);
 
-/// `text` fit for a one-line message: control characters become '?', and a long text is cut.
-[[nodiscard]] std::string printable(std::string_view text);
-
 /// Whether config_toml puts a comment with range and meaning above each key.
 enum class Comments : bool { kNone, kMeanings };
 

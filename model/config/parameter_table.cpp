@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "config/config_text.h"
 #include "config/parameters.h"
 #include "config/quantities.h"

@@ -27,7 +27,7 @@ void declare_run(ParameterTable& t, Config& c) {
   t.count("run.sample_seed", c.run.sample_seed, 1, 0, kMaxCount, "",
           "sampled: seed of the choice of tiles");
   t.count("run.max_cycles", c.run.max_cycles, 0, 0, kMaxCount, "cycles",
-          "End the run, marked as partial, after this many cycles; 0 = no limit");
+          "End a run in time, marked as partial, after this many cycles; 0 = no limit");
   t.flag("run.keep_all", c.run.keep_all, false,
          "Build every unit that the configuration allows, needed by the scene or not");
   t.count("image.width", c.image.width, 640, 1, 16384, "pixels", "Width of the picture");
@@ -57,7 +57,7 @@ void declare_run(ParameterTable& t, Config& c) {
                   "centre like a sun of irradiance pi");
 }
 
-void declare_pipeline(ParameterTable& t, Config& c) {
+void declare_flow(ParameterTable& t, Config& c) {
   t.frequency("clock.frequency", c.clock.frequency, 1e9, 1e3, 1e12, "Core clock of the machine");
   t.count("packet.size", c.packet.size, 16, 1, 64, "rays", "Rays of a full packet");
   t.choice("traversal.scheme", c.traversal_scheme, Scheme::kMasked,
@@ -89,6 +89,9 @@ void declare_pipeline(ParameterTable& t, Config& c) {
             {"primary_first", ArbiterPolicy::kPrimaryFirst},
             {"secondary_first", ArbiterPolicy::kSecondaryFirst}},
            "Which packet a free traversal context gets");
+}
+
+void declare_ray_cache(ParameterTable& t, Config& c) {
   t.text("ray_cache.heuristic", c.ray_cache.heuristic, "dir",
          "How rays are sorted: none, dir, mdir(x), fastpos, pos(x), opos, ray5d(x) or grid(x)");
   t.count("ray_cache.cells", c.ray_cache.cells, 0, 0, 65536, "cells",
@@ -303,7 +306,8 @@ void declare_tree_and_measures(ParameterTable& t, Config& c) {
 ParameterTable declare_parameters(Config& config) {
   ParameterTable table;
   declare_run(table, config);
-  declare_pipeline(table, config);
+  declare_flow(table, config);
+  declare_ray_cache(table, config);
   declare_shader_cache(table, config);
   declare_units(table, config);
   declare_memory(table, config);

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
 #include <tuple>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/check_config.h"
 #include "config/config_text.h"
 #include "config/parameters.h"
@@ -29,22 +29,6 @@ constexpr std::ptrdiff_t kMostDotsInLine = 32;
   throw Error(ExitCode::kUsage, fmt::format("{}: {}", place, problem));
 }
 
-/// Levenshtein's distance: insertions, deletions and replacements that make `b` of `a`.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 /// How far a mistyped key is from a known one. A key without a table may just lack the table.
 std::size_t key_distance(std::string_view typed, std::string_view known) {
   if (typed.find('.') == std::string_view::npos) known.remove_prefix(known.rfind('.') + 1);
@@ -57,8 +41,7 @@ std::string unknown_key(const ParameterTable& table, std::string_view key) {
   if (key.size() <= kLongestKey) {
     const auto nearest = std::ranges::min_element(
         table.parameters(), {}, [&](const Parameter& p) { return key_distance(key, p.key); });
-    // Beyond a third of its letters a guess helps nobody.
-    if (key_distance(key, nearest->key) <= key.size() / 3) {
+    if (may_be_meant(key, key_distance(key, nearest->key))) {
       return fmt::format("{}; did you mean '{}'?", told, nearest->key);
     }
   }

@@ -49,10 +49,4 @@ void FileOutput::close() {
   if (std::fclose(file) != 0) fail(errno);
 }
 
-void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  FileOutput output(path);
-  output.write(bytes);
-  output.close();
-}
-
 }  // namespace sheaf

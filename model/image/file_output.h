@@ -34,8 +34,4 @@ class FileOutput {
   int failure_ = 0;  ///< errno of the first failure
 };
 
-/// Writes a whole file. Throws Error(kOutput, "<path>: <reason>") if that fails, and leaves no
-/// half-written file behind.
-void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
-
 }  // namespace sheaf

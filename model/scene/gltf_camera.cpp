@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text.h"
 #include "scene/camera_setup.h"
 #include "scene/gltf_value.h"
 

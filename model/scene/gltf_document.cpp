@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <new>
@@ -126,6 +127,8 @@ void parse_model(tinygltf::Model& model, json root) {
   } catch (const std::exception& e) {
     error = e.what();
   }
+  std::ranges::replace(error, '\n', ' ');  // each of its lines ends with a line break
+  error.erase(error.find_last_not_of(' ') + 1);
   if (!parsed || !error.empty()) refuse(place_of_failure(model, listed), error);
 }
 

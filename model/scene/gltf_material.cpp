@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.h"
 #include "scene/gltf_value.h"
 
 namespace sheaf::gltf {

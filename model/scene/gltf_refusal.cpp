@@ -6,20 +6,12 @@
 
 #include <algorithm>
 
+#include "base/text.h"
+
 namespace sheaf::gltf {
 
 void refuse(std::string_view place, std::string_view what) {
   throw Refusal(place.empty() ? std::string(what) : fmt::format("{}: {}", place, what));
-}
-
-std::string printable(std::string_view text, std::size_t limit) {
-  const bool cut = text.size() > limit;
-  std::string result(text.substr(0, limit));
-  std::replace_if(
-      result.begin(), result.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-  while (!result.empty() && result.back() == ' ') result.pop_back();
-  return cut ? result + "..." : result;
 }
 
 void Warnings::add(std::string_view text) {
@@ -36,7 +28,7 @@ std::vector<std::string> Warnings::lines() const {
   std::vector<std::string> lines;
   lines.reserve(entries_.size());
   for (const Entry& e : entries_) {
-    const std::string line = printable(e.text);
+    const std::string line = printable(e.text, kLongestMessage);
     lines.push_back(e.times == 1 ? line : fmt::format("{} ({} times)", line, e.times));
   }
   return lines;

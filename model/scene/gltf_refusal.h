@@ -17,9 +17,8 @@ struct Refusal : std::runtime_error {
 /// `place` is a JSON pointer into the file such as "/accessors/3", or empty for the whole file.
 [[noreturn]] void refuse(std::string_view place, std::string_view what);
 
-/// Text from a file made fit for one line of a terminal: control characters are replaced, and what
-/// exceeds `limit` bytes is cut off.
-[[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 400);
+/// Most bytes of text from a file in a message.
+constexpr std::size_t kLongestMessage = 400;
 
 /// Collects warnings; the same one again is counted, not repeated.
 class Warnings {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/text.h"
 #include "scene/gltf_limits.h"
 #include "scene/gltf_refusal.h"
 

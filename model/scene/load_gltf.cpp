@@ -14,6 +14,7 @@
 #include "base/errors.h"
 #include "base/huge_pages.h"
 #include "base/out_of_memory.h"
+#include "base/text.h"
 #include "scene/camera_setup.h"
 #include "scene/gltf_camera.h"
 #include "scene/gltf_document.h"
@@ -143,9 +144,6 @@ void set_lights(Document& document, const PlacedNodes& placed, const SceneLoadOp
     scene.lights = {configured_light(options, scene.bounds)};
     return;
   }
-  if (options.light_intensity) {
-    document.warnings.add("light.intensity has no effect without light.position");
-  }
   scene.lights = read_lights(document, placed);
   const bool glows =
       std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -196,7 +194,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const SceneLoadOptions
   try {
     return load(path, options);
   } catch (const Refusal& refusal) {
-    throw Error(ExitCode::kScene, fmt::format("{}: {}", file, printable(refusal.what())));
+    throw Error(ExitCode::kScene,
+                fmt::format("{}: {}", file, printable(refusal.what(), gltf::kLongestMessage)));
   } catch (const std::bad_alloc&) {
     throw Error(ExitCode::kScene, fmt::format("{}: {}", file, kOutOfMemory));
   }

@@ -97,8 +97,6 @@ class MissCurve {
   }
 
   [[nodiscard]] std::uint64_t num_accesses() const { return num_accesses_; }
-  /// Distances from this one on do not occur: more ways help no more.
-  [[nodiscard]] std::uint64_t max_ways() const { return at_distance_.size(); }
 
   struct Point {
     std::uint64_t ways = 0;

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "config/config.h"
-#include "memory/cache_array.h"
+#include "system/tag_hierarchy.h"
 #include "tracefile/memory_stream.h"
 
 namespace sheaf {
@@ -31,26 +30,22 @@ class DramRequests {
   /// Throws Error(kTrace) for a cache that the configuration does not have.
   DramRequests(const Config& config, const MemoryLayout& layout, Sink sink);
 
+  DramRequests(const DramRequests&) = delete;
+  DramRequests& operator=(const DramRequests&) = delete;
+
+  /// Throws Error(kTrace) for a write that no unit makes.
   void add(const MemoryAccesses::Access& access);
   void finish();
 
  private:
-  struct Level {
-    CacheMode mode{};
-    Bytes line = 0;
-    CacheArray array;
+  struct PrivateCache {
+    TagHierarchy::Cache kind;
+    std::size_t unit;
   };
-  void access_private(Level& cache, std::uint64_t line, bool write);
-  void access_shared(Address address, Bytes bytes, bool write);
-  void send(Address address, Bytes bytes, bool write) { sink_({address, cycle_, bytes, write}); }
 
-  Sink sink_;
-  std::vector<std::vector<Level>> private_;  ///< by stream and cache
-  Level shared_;
+  TagHierarchy tags_;
+  std::vector<std::vector<PrivateCache>> caches_;  ///< by stream and cache
   Cycles cycle_ = 0;
 };
-
-/// The parameters of a recorded cache; null for a group that there is not.
-[[nodiscard]] const CacheSpec* find_cache(const Config& config, std::string_view group);
 
 }  // namespace sheaf

@@ -5,14 +5,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "base/errors.h"
 #include "system/conservation.h"
-#include "system/dram_requests.h"
 #include "system/reported_values.h"
 
 namespace sheaf {
+namespace {
+
+/// The parameters of a recorded cache; null for a group that there is not.
+const CacheSpec* find_cache(const Config& config, std::string_view group) {
+  const std::array<std::pair<std::string_view, const CacheSpec*>, 5> known{
+      {{"node_cache", &config.node_cache},
+       {"triangle_cache", &config.triangle_cache},
+       {"attribute_cache", &config.attribute_cache},
+       {"texture_cache", &config.texture_cache},
+       {"film_cache", &config.film_cache}}};
+  for (const auto& [name, spec] : known) {
+    if (name == group) return spec;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 ReplayMachine::ReplayMachine(const Config& config, TraceReader& reader,
                              const TraceMetadata& metadata, ReplayMode mode)
     : config_(config),

@@ -162,8 +162,6 @@ std::span<const CounterGroup> counter_groups() {
       CounterGroup{"system.dram.channels", "The same: all channels", DramChannelStats::infos()},
       CounterGroup{"system.dram.energy", "The same: energy, none where no source gives it",
                    DramEnergyValues::infos()},
-      CounterGroup{"system.dram.channels", "Only with banks (dram.model): all channels together",
-                   DramChannelStats::infos()},
   };
   return kGroups;
 }

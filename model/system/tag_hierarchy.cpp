@@ -78,16 +78,29 @@ TagHierarchy::Served TagHierarchy::modify_film(std::uint64_t line, Bytes bytes) 
   return served;
 }
 
-TagHierarchy::Place TagHierarchy::place_of(Address address) {
+TagHierarchy::Place TagHierarchy::place_of(Address address) const {
   const std::uint64_t line = address >> l2_line_shift_;
   const std::uint64_t tag = line >> sector_shift_;
-  return {banks_[tag & (banks_.size() - 1)],
+  return {tag & (banks_.size() - 1),
           (tag >> bank_shift_) << sector_shift_ | (line & (l2_.sectors - 1))};
 }
 
+Address TagHierarchy::address_of(const Place& where) const {
+  const std::uint64_t tag = (where.index >> sector_shift_) << bank_shift_ | where.bank;
+  return (tag << sector_shift_ | (where.index & (l2_.sectors - 1))) << l2_line_shift_;
+}
+
+void TagHierarchy::use_dram(Address address, Bytes bytes, bool write) {
+  dram_bytes_ += bytes;
+  if (dram_sink_) dram_sink_(address, bytes, write);
+}
+
 void TagHierarchy::put_l2(const Place& where, bool dirty) {
-  const CacheVictim victim = where.bank.fill(where.index, dirty);
-  dram_bytes_ += static_cast<Bytes>(std::popcount(victim.dirty)) * l2_line_size();
+  const CacheVictim victim = banks_[where.bank].fill(where.index, dirty);
+  for (std::uint32_t left = victim.dirty; left != 0; left &= left - 1) {
+    const std::uint64_t leaving = victim.line + static_cast<std::uint32_t>(std::countr_zero(left));
+    use_dram(address_of({where.bank, leaving}), l2_line_size(), true);
+  }
 }
 
 TagHierarchy::Served TagHierarchy::read_l2(Address address) {
@@ -97,7 +110,7 @@ TagHierarchy::Served TagHierarchy::read_l2(Address address) {
     ++l2_hits_;
     return Served::kL2;
   }
-  dram_bytes_ += l2_line_size();
+  use_dram(address_of(where), l2_line_size(), false);
   put_l2(where, false);
   return Served::kDram;
 }
@@ -109,16 +122,16 @@ void TagHierarchy::write_l2(Address address, Bytes bytes) {
   const bool stores = l2_.mode == CacheMode::kNormal;
   if (l2_finds(where)) {
     ++l2_hits_;
-    if (stores && back) where.bank.mark_dirty(where.index);
-    if (stores && !back) dram_bytes_ += bytes;
+    if (stores && back) banks_[where.bank].mark_dirty(where.index);
+    if (stores && !back) use_dram(address, bytes, true);
     return;
   }
   const bool allocates = stores && l2_.write.allocate;
   if (allocates) {
-    if (bytes != l2_line_size()) dram_bytes_ += l2_line_size();
+    if (bytes != l2_line_size()) use_dram(address_of(where), l2_line_size(), false);
     put_l2(where, back);
   }
-  if (!allocates || !back) dram_bytes_ += bytes;
+  if (!allocates || !back) use_dram(address, bytes, true);
 }
 
 void TagHierarchy::flush() {

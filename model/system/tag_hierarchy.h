@@ -3,6 +3,8 @@
 #pragma once
 
 #include <bit>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "config/config.h"
@@ -34,6 +36,10 @@ class TagHierarchy {
   /// Writes what is dirty in the film's cache back, as at the end of a frame.
   void flush();
 
+  /// Told every request that is left for DRAM; a read is of a line of the L2.
+  using DramSink = std::function<void(Address address, Bytes bytes, bool write)>;
+  void set_dram_sink(DramSink sink) { dram_sink_ = std::move(sink); }
+
   /// Adds hits, accesses and DRAM bytes so far.
   void observe(Observation& seen) const;
 
@@ -53,7 +59,7 @@ class TagHierarchy {
   };
   /// A line's bank of the L2, and its number there.
   struct Place {
-    CacheArray& bank;
+    std::size_t bank;
     std::uint64_t index;
   };
   [[nodiscard]] const Level& level(Cache cache) const {
@@ -66,9 +72,11 @@ class TagHierarchy {
   Served read_l2(Address address);
   void write_l2(Address address, Bytes bytes);
   void put_l2(const Place& where, bool dirty);
-  [[nodiscard]] Place place_of(Address address);
-  [[nodiscard]] bool l2_finds(const Place& where) const {
-    return l2_.mode == CacheMode::kPerfect || where.bank.touch(where.index);
+  void use_dram(Address address, Bytes bytes, bool write);
+  [[nodiscard]] Place place_of(Address address) const;
+  [[nodiscard]] Address address_of(const Place& where) const;
+  [[nodiscard]] bool l2_finds(const Place& where) {
+    return l2_.mode == CacheMode::kPerfect || banks_[where.bank].touch(where.index);
   }
   [[nodiscard]] Bytes l2_line_size() const { return Bytes{1} << l2_line_shift_; }
 
@@ -80,6 +88,7 @@ class TagHierarchy {
   std::uint64_t l2_hits_ = 0;
   std::uint64_t l2_accesses_ = 0;
   Bytes dram_bytes_ = 0;
+  DramSink dram_sink_;
 };
 
 }  // namespace sheaf

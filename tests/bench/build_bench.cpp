@@ -103,7 +103,9 @@ void measure_growth(const std::string& plot_path, double most_triangles) {
                   .y = {"seconds", PlotScale::kLog10},
                   .series = {{"measured, one thread", measured, PlotStyle::kLineAndMarks},
                              {"N log N through the first", law, PlotStyle::kLine}}};
-  write_file(plot_path, plot_svg(plot));
+  FileOutput file(plot_path);
+  file.write(plot_svg(plot));
+  file.close();
 }
 
 int run(int argc, char** argv) {

@@ -159,17 +159,5 @@ TEST(AccuracyCommand, LeavesOutWhatCannotBeFormedWhereNoRayMeetsTheScene) {
   }
 }
 
-TEST(AccuracyCommand, EndsAtOnceWhenInterrupted) {
-  const ScratchFolder scratch;
-  std::vector<std::string> large = arguments(scratch / "out");
-  large.insert(large.end(), {"--set", "image.width=2000", "--set", "image.height=2000"});
-  const CommandResult result = run_sheaf(large, [](pid_t child) {
-    usleep(500'000);
-    kill(child, SIGTERM);
-  });
-  EXPECT_EQ(result.exit_code, 130);
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out" / "accuracy.csv"));
-}
-
 }  // namespace
 }  // namespace sheaf::test

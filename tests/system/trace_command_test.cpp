@@ -122,6 +122,46 @@ TEST(TraceCommand, ExportsAboutTheRequestsThatTheRunMade) {
   EXPECT_NEAR(reads / live, 1.0, 0.02);
 }
 
+class ExportedRequests : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(ExportedRequests, AreAboutThoseOfTheRecordedRunWhateverItsCaches) {
+  const ScratchFolder scratch;
+  // Small caches, so that it matters what they keep.
+  std::vector<std::string> settings{"image.width=48", "image.height=40", "l2.capacity=64KiB",
+                                    "l2.ways=4", "node_cache.capacity=2KiB"};
+  settings.insert(settings.end(), GetParam().begin(), GetParam().end());
+  std::vector<std::string> run =
+      run_arguments(committed_scene("dragon"), scratch / "run", settings);
+  run.insert(run.end(), {"--record", "memory"});
+  ASSERT_EQ(run_sheaf(run).exit_code, 0);
+  double reads = 0;
+  double writes = 0;
+  const std::string trace = (scratch / "run/memory.trace").string();
+  for (const std::string& line : lines_of(run_sheaf({"trace", "export", trace}).out)) {
+    (line.find("READ") != std::string::npos ? reads : writes) += 1;
+  }
+  const nlohmann::json live = read_stats(scratch / "run");
+  EXPECT_NEAR(reads / live.at("system.dram.num_reads").at("value").get<double>(), 1.0, 0.01);
+  EXPECT_NEAR(writes / live.at("system.dram.num_writes").at("value").get<double>(), 1.0, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Caches, ExportedRequests,
+    testing::Values(std::vector<std::string>{"l2.replacement=lru"},
+                    std::vector<std::string>{"l2.replacement=plru"},
+                    std::vector<std::string>{"l2.replacement=fifo"},
+                    std::vector<std::string>{"l2.replacement=random"},
+                    std::vector<std::string>{"l2.sectors=2", "node_cache.sectors=2",
+                                             "triangle_cache.sectors=2",
+                                             "attribute_cache.sectors=2", "texture_cache.sectors=2",
+                                             "film_cache.sectors=2"},
+                    std::vector<std::string>{"node_cache.replacement=random"},
+                    std::vector<std::string>{"l2.write_policy=through"},
+                    std::vector<std::string>{"l2.write_allocate=true"},
+                    std::vector<std::string>{"film_cache.write_policy=through"},
+                    std::vector<std::string>{"film_cache.write_allocate=false"},
+                    std::vector<std::string>{"l2.mode=absent"}));
+
 /// Misses of one cache with LRU, simulated by itself on all accesses of a trace.
 std::uint64_t simulate(const std::string& trace, const CurveShape& shape, std::uint32_t ways) {
   TraceReader reader(committed_trace(trace));

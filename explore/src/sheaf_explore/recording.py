@@ -45,12 +45,21 @@ def _group(point: Point) -> Group:
     return point.source.path, tuple(sorted(_shape(point.settings).items()))
 
 
+def _can_replay(point: Point) -> bool:
+    """Whether a replay could serve: it makes no heat maps."""
+    return point.source.kind == "scene" and not point.settings.get("image.heat_maps")
+
+
 def mark_replayed(points: list[Point]) -> list[Point]:
     """The points, those that share their rays with others as replays."""
-    scenes = [point for point in points if point.source.kind == "scene"]
-    sizes = Counter(_group(point) for point in scenes)
+    served = [point for point in points if _can_replay(point)]
+    sizes = Counter(_group(point) for point in served)
     return [
-        replace(point, from_recording=sizes[_group(point)] >= _WORTH_RECORDING) for point in points
+        replace(
+            point,
+            from_recording=_can_replay(point) and sizes[_group(point)] >= _WORTH_RECORDING,
+        )
+        for point in points
     ]
 
 

@@ -12,6 +12,7 @@
 #include <ranges>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 
 namespace sheaf {

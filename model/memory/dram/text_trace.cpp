@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/config_text.h"
 
 namespace sheaf {
@@ -73,13 +74,13 @@ TextTrace::TextTrace(const std::string& path)
       file_(path == "-" ? stdin : std::fopen(path.c_str(), "rb")),
       buffer_(kBufferSize) {
   if (!file_) {
-    throw Error(ExitCode::kUsage,
+    throw Error(ExitCode::kTrace,
                 fmt::format("{}: cannot be read: {}", printable(name_), std::strerror(errno)));
   }
 }
 
 void TextTrace::refuse(const std::string& what) const {
-  throw Error(ExitCode::kUsage, fmt::format("{}:{}: {}", printable(name_), line_, what));
+  throw Error(ExitCode::kTrace, fmt::format("{}:{}: {}", printable(name_), line_, what));
 }
 
 bool TextTrace::next_line(std::string_view& line) {
@@ -107,7 +108,7 @@ bool TextTrace::next_line(std::string_view& line) {
     const std::size_t got =
         std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
     if (std::ferror(file_.get()) != 0) {
-      throw Error(ExitCode::kUsage,
+      throw Error(ExitCode::kTrace,
                   fmt::format("{}: cannot be read: {}", printable(name_), std::strerror(errno)));
     }
     end_ += got;

@@ -29,10 +29,10 @@ struct TraceAccess {
 /// back. Memory use does not depend on the length of the file.
 class TextTrace {
  public:
-  /// "-" is the standard input. Throws Error(kUsage) if the file cannot be read.
+  /// "-" is the standard input. Throws Error(kTrace) if the file cannot be read.
   explicit TextTrace(const std::string& path);
 
-  /// False at the end. Throws Error(kUsage) naming file and line for whatever is no access.
+  /// False at the end. Throws Error(kTrace) naming file and line for whatever is no access.
   bool next(TraceAccess& access);
 
   [[nodiscard]] std::uint64_t num_lines() const { return line_; }

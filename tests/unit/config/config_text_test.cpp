@@ -123,10 +123,5 @@ TEST(ConfigText, SchemaHoldsEveryParameterWithItsDefault) {
   EXPECT_EQ(width.at("maximum"), 16384);
 }
 
-TEST(ConfigText, PrintableTextIsOneShortLine) {
-  EXPECT_EQ(printable("a\nb\x1b[31m"), "a?b?[31m");
-  EXPECT_EQ(printable(std::string(1000, 'x')).size(), 123U);
-}
-
 }  // namespace
 }  // namespace sheaf

@@ -21,6 +21,7 @@
 
 #include "base/errors.h"
 #include "base/random.h"
+#include "rows_of.h"
 
 namespace sheaf {
 namespace {

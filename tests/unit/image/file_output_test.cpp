@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,13 @@ class FileSizeLimit {
   void (*old_handler_)(int);
 };
 
-TEST(WriteFile, ReplacesWhatWasThere) {
+void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  FileOutput output(path);
+  output.write(bytes);
+  output.close();
+}
+
+TEST(FileOutput, ReplacesWhatWasThere) {
   const auto path = temporary("sheaf_write_file");
   write_file(path, std::vector<std::uint8_t>(5000, 'x'));
   write_file(path, std::vector<std::uint8_t>{'a', 0, 'b'});
@@ -85,14 +92,14 @@ TEST(FileOutput, DoesNotForgetAFailureWhoseExceptionWasLost) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(WriteFile, LeavesNoHalfWrittenFile) {
+TEST(FileOutput, LeavesNoHalfWrittenFile) {
   const auto path = temporary("sheaf_half_written");
   const FileSizeLimit limit(20'000);
   EXPECT_THROW(write_file(path, std::vector<std::uint8_t>(100'000)), Error);
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(WriteFile, NoticesAFullDiskHoweverLittleItWrites) {
+TEST(FileOutput, NoticesAFullDiskHoweverLittleItWrites) {
   const std::filesystem::path full = "/dev/full";
   if (!std::filesystem::exists(full)) {
     GTEST_SKIP() << "there is no /dev/full here";
@@ -103,7 +110,7 @@ TEST(WriteFile, NoticesAFullDiskHoweverLittleItWrites) {
   EXPECT_TRUE(std::filesystem::exists(full)) << "a device is not to be removed";
 }
 
-TEST(WriteFile, NamesFileAndReason) {
+TEST(FileOutput, NamesFileAndReason) {
   const auto path = temporary("no_such_folder") / "file";
   try {
     write_file(path, {});

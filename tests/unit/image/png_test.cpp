@@ -19,6 +19,7 @@
 
 #include "base/errors.h"
 #include "image/heat_color.h"
+#include "rows_of.h"
 
 namespace sheaf {
 namespace {

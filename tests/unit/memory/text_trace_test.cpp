@@ -29,7 +29,7 @@ struct TextTraceTest : testing::Test {
     try {
       static_cast<void>(read(text));
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kUsage);
+      EXPECT_EQ(error.code(), ExitCode::kTrace);
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
       return error.what();
     }

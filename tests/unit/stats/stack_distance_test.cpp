@@ -118,7 +118,7 @@ TEST(MissCurve, BeginsWithAllAccessesAndEndsWithFirstUses) {
   EXPECT_EQ(curve.points().front().misses, lines.size());
   EXPECT_EQ(curve.points().back().misses, distinct.size());
   EXPECT_EQ(misses_at(curve.points(), 0), lines.size());
-  EXPECT_EQ(misses_at(curve.points(), curve.max_ways() + 1000), distinct.size());
+  EXPECT_EQ(misses_at(curve.points(), curve.points().back().ways + 1000), distinct.size());
 }
 
 }  // namespace
