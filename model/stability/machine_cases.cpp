@@ -25,11 +25,11 @@ struct Extremes {
   std::vector<std::string> clocks;
 };
 
-/// The extremes of latencies, rates, units, depths and MSHRs, and the choices of the policies below.
-/// Not varied are the ray cache's victims and grouping, the shader cache's key, what caches hold
-/// and how they replace, sectors, banks and ports of private caches, targets of MSHRs, write
-/// policies and buffers, the spill queue, and the queues and pages of DRAM. The scene has no
-/// texture, so there is no texture cache.
+/// The extremes of latencies, rates, units, depths and MSHRs, and the choices of the policies
+/// below. Not varied are the ray cache's victims and grouping, the shader cache's key, what caches
+/// hold and how they replace, sectors, banks and ports of private caches, targets of MSHRs, write
+/// policies and buffers, the spill queue, the crossbar's queue, and the queues and pages of DRAM.
+/// The scene has no texture, so there is no texture cache.
 std::vector<Factor> factors(const Extremes& extremes) {
   const std::vector<std::string> cycles = {"1", extremes.slow};
   const std::vector<std::string> depths = {"1", "1000000"};
