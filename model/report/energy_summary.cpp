@@ -88,7 +88,8 @@ class EnergySummary {
 
   void energy() {
     const double known = *real("energy.known");
-    text_ += fmt::format("\nEnergy and area of what is known, all but DRAM at {}\n", words("energy.node"));
+    text_ += fmt::format("\nEnergy and area of what is known, all but DRAM at {}\n",
+                         words("energy.node"));
     TextTable table({Align::kLeft, Align::kRight, Align::kLeft});
     for (const Unit& unit : units()) {
       if (!unit.any_known) continue;
