@@ -25,7 +25,11 @@ struct Extremes {
   std::vector<std::string> clocks;
 };
 
-/// The extremes of every rate, size and number of the machine, and every choice of its policies.
+/// The extremes of latencies, rates, units, depths and MSHRs, and the choices of the policies
+/// below. Not varied are the ray cache's victims and grouping, the shader cache's key, what caches
+/// hold and how they replace, sectors, banks and ports of private caches, targets of MSHRs, write
+/// policies and buffers, the spill queue, the crossbar's queue, and the queues and pages of DRAM.
+/// The scene has no texture, so there is no texture cache.
 std::vector<Factor> factors(const Extremes& extremes) {
   const std::vector<std::string> cycles = {"1", extremes.slow};
   const std::vector<std::string> depths = {"1", "1000000"};
@@ -243,7 +247,7 @@ std::vector<StabilityCase> machine_cases() {
            stiff_machines},
           {"machines", "against clocked",
            "latencies and rates of 1 and 10, queues of 1 and 1e6, units of 1 and 4, "
-           "every policy",
+           "policies of rays, packets and traversal",
            [](const Effort&) { return against_clocked(); }},
           {"machines", "long runs", "1e12 cycles", [](const Effort&) { return long_runs(); }},
           {"machines", "clocks", "core clocks from 1 kHz to 1 THz beside memory of 1 to 2 GHz",

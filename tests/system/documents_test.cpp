@@ -39,8 +39,13 @@ Document read_document(const fs::path& path) {
 /// Every document of the project, in order of their names.
 std::vector<Document> documents() {
   const fs::path root = SHEAF_SOURCE_DIR;
-  std::set<fs::path> paths{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md",
-                           root / "scenes/README.md", root / "explore/README.md"};
+  std::set<fs::path> paths;
+  for (const char* name :
+       {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "scenes/README.md", "explore/README.md",
+        "traces/README.md", "tests/bench/README.md", "tests/bench/README.md.in",
+        "explore/src/sheaf_explore/paper/published/README.md"}) {
+    paths.insert(root / name);
+  }
   for (const char* folder : {"rtl_notes", "explore/docs"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() == ".md") paths.insert(entry.path());
