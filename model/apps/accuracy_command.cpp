@@ -8,7 +8,9 @@
 #include <cstdio>
 
 #include "apps/accuracy/output.h"
+#include "apps/exit_codes.h"
 #include "apps/frame_run.h"
+#include "apps/shared_options.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
@@ -16,17 +18,6 @@
 
 namespace sheaf {
 namespace {
-
-constexpr const char* kFooter =
-    "Leaves accuracy.txt, accuracy.csv and image_error.csv with a plot of each, and "
-    "precision.csv.\n"
-    "Every level runs in a process of its own on the same prepared scene; run.fidelity,\n"
-    "run.quantum, run.sample_share and film.format are chosen by this command. The reference "
-    "clocked is exact and slow; timed is\n"
-    "usually the same. For example:\n"
-    "  sheaf accuracy scenes/dragon.glb --set image.width=160 --set image.height=120\n"
-    "Exit codes: 0 done; 2 command line or configuration refused; 3 scene refused; 4 result not\n"
-    "written; 5 machine stuck; 130 interrupted (nothing but whole levels is written).";
 
 // With --reference timed the dearest level is left out.
 std::vector<Level> chosen_levels(const std::string& reference) {
@@ -95,22 +86,24 @@ void declare_accuracy_command(CLI::App& app, AccuracyOptions& options) {
   CLI::App* command = app.add_subcommand(
       "accuracy",
       "Compare levels of fidelity, film formats and bits of planes and rays by cost and error");
-  command->add_option("SCENE", options.scene, "glTF 2.0 file (.gltf or .glb)")->required();
-  command->add_option("--config", options.config, "TOML file with parameters of the machine");
-  command->add_option("--set", options.settings, "Set one parameter; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  declare_scene(*command, options);
+  declare_machine(*command, options);
   command
       ->add_option("--reference", options.reference,
                    "What errors are measured against: clocked (default) or timed")
+      ->type_name("")
       ->check(CLI::IsMember({"clocked", "timed"}));
-  command->add_option("--out", options.out, "Folder for the results (default result/accuracy)");
-  command
-      ->add_option("--cache", options.cache,
-                   "Folder in which kd-trees are kept from run to run, or none")
-      ->type_name("DIR");
-  command->footer(kFooter);
+  declare_out(*command, options, "result/accuracy");
+  declare_cache(*command, options);
+  using enum ExitCode;
+  command->footer(
+      "Leaves accuracy.txt, accuracy.csv and image_error.csv with a plot of each, and "
+      "precision.csv. Every level runs in a process of its own on the same prepared scene; "
+      "run.fidelity, run.quantum, run.sample_share and film.format are chosen by this command. The "
+      "reference clocked is exact and slow; timed is usually the same. Interrupted, it writes "
+      "nothing but whole levels. For example:\n"
+      "  sheaf accuracy scenes/dragon.glb --set image.width=160 --set image.height=120\n" +
+      exit_codes({kBug, kScene, kStuck, kInterrupted}));
 }
 
 int accuracy_command(const AccuracyOptions& options) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "apps/exit_codes.h"
 #include "base/errors.h"
 #include "energy/coefficients.h"
 
@@ -12,7 +13,8 @@ namespace sheaf {
 
 void declare_coefficients_command(CLI::App& app) {
   app.add_subcommand("coefficients",
-                     "Print every coefficient of energy and area with unit, node and source");
+                     "Print every coefficient of energy and area with unit, node and source")
+      ->footer(exit_codes());
 }
 
 int coefficients_command() {

@@ -10,7 +10,9 @@
 #include <cstdio>
 #include <iterator>
 
+#include "apps/exit_codes.h"
 #include "apps/frame_run.h"
+#include "apps/shared_options.h"
 #include "base/errors.h"
 #include "report/plot.h"
 #include "report/result_folder.h"
@@ -20,15 +22,6 @@
 
 namespace sheaf {
 namespace {
-
-constexpr const char* kFooter =
-    "Writes curve.csv (every number of ways at which misses change), curve.svg and curve.png.\n"
-    "Streams: all accesses through one cache; each kind of data through a cache of its own; and\n"
-    "those of each recorded cache. A knee is a capacity up to which doubling saves much, and\n"
-    "beyond which little.\n"
-    "Example: sheaf curve result/dragon/memory.trace --line 32 --line 64 --sets 1 --sets 64\n"
-    "Exit codes: 0 done; 2 command line refused; 4 result not written; 6 trace refused;\n"
-    "130 interrupted (nothing is written).";
 
 constexpr std::uint64_t kMaxLine = 65536;
 constexpr std::uint64_t kMaxSets = std::uint64_t{1} << 24;
@@ -126,13 +119,20 @@ void declare_curve_command(CLI::App& app, CurveOptions& options) {
       "curve", "Tell the LRU misses of all cache sizes, in one pass over a memory trace");
   curve->add_option("TRACE", options.trace, "Memory trace that 'sheaf run --record memory' wrote")
       ->required();
-  curve->add_option("--line", options.lines, "Line size in bytes; repeatable")
-      ->capture_default_str();
-  curve->add_option("--sets", options.sets, "Number of sets, 1 = fully associative; repeatable")
-      ->capture_default_str();
-  curve->add_option("--out", options.out, "Folder for the results")->capture_default_str();
+  const auto shape = [&](const char* name, auto& values, const char* meaning) {
+    curve->add_option(name, values, meaning)->type_name("N")->capture_default_str();
+  };
+  shape("--line", options.lines, "Line size in bytes; repeatable");
+  shape("--sets", options.sets, "Number of sets, 1 = fully associative; repeatable");
+  declare_out(*curve, options, "result/curve");
   curve->add_flag("--quiet", options.quiet, "Print no summary");
-  curve->footer(kFooter);
+  curve->footer(
+      "Writes curve.csv (every number of ways at which misses change), curve.svg and curve.png. "
+      "Streams: all accesses through one cache; each kind of data through a cache of its own; and "
+      "those of each recorded cache. A knee is a capacity up to which doubling saves much, and "
+      "beyond which little. For example:\n"
+      "  sheaf curve result/dragon/memory.trace --line 32 --line 64 --sets 1 --sets 64\n" +
+      exit_codes({ExitCode::kTrace, ExitCode::kInterrupted}));
 }
 
 int curve_command(const CurveOptions& options) {

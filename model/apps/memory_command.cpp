@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
-#include <filesystem>
+#include <utility>
 
+#include "apps/exit_codes.h"
+#include "apps/shared_options.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "config/read_config.h"
-#include "memory/dram/stream.h"
 #include "memory/dram/trace_run.h"
 #include "report/memory_summary.h"
 #include "report/progress.h"
@@ -19,27 +22,25 @@
 namespace sheaf {
 namespace {
 
-constexpr const char* kFooter =
-    "A line of TRACE is an address, a command and an arrival in memory cycles: 0x2000D5C0 READ "
-    "30.\n"
-    "An arrival that finds its queue full waits, and those behind it wait with it. A latency runs\n"
-    "from the acceptance into the queue to the last byte on the data bus.\n"
-    "The memory is dram.model with the other dram.* (sheaf config lists them); DDR4-2400 if that "
-    "is\n"
-    "fixed, which has no banks to report on. For example:\n"
-    "  sheaf memory --generate random --gap 16\n"
-    "  sheaf memory trace.txt --set dram.model=HBM2-2000 --set dram.page=closed --json\n"
-    "Exit codes: 0 done; 2 command line, configuration or trace refused.";
+constexpr std::array<std::pair<const char*, StreamKind>, 3> kStreams{
+    {{"sequential", StreamKind::kSequential},
+     {"random", StreamKind::kRandom},
+     {"interleaved", StreamKind::kInterleaved}}};
 
-StreamKind stream_kind(const std::string& name) {
-  if (name == "random") return StreamKind::kRandom;
-  return name == "interleaved" ? StreamKind::kInterleaved : StreamKind::kSequential;
+/// A file may describe a whole machine; a setting is there to have an effect.
+void check_settings(const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    if (setting.starts_with("dram.")) continue;
+    throw Error(ExitCode::kUsage,
+                fmt::format("--set {}: there is nothing here but the memory; set dram.*, or "
+                            "simulate the machine with sheaf run",
+                            printable(setting)));
+  }
 }
 
 DramDevice device_of(const MemoryOptions& options) {
-  const auto file = options.config ? std::optional<std::filesystem::path>(*options.config)
-                                   : std::optional<std::filesystem::path>();
-  DramSpec dram = resolve_config(file, options.settings).dram;
+  DramSpec dram = resolve_config(options.config, options.settings).dram;
+  check_settings(options.settings);
   if (dram.model == DramModel::kFixed) dram.model = DramModel::kDdr4_2400;
   return resolve_dram(dram);
 }
@@ -69,34 +70,41 @@ void declare_memory_command(CLI::App& app, MemoryOptions& options) {
   CLI::App* memory =
       app.add_subcommand("memory", "Drive the memory alone, from a trace or a made-up stream");
   memory->add_option("TRACE", options.trace, "Memory trace in DRAMsim3's form; - = standard input");
-  memory
-      ->add_option("--generate", options.generate,
-                   "Make a stream instead: sequential, random or interleaved over bank groups")
-      ->check(CLI::IsMember({"sequential", "random", "interleaved"}));
-  memory->add_option("--count", options.count, "Accesses to generate")
-      ->capture_default_str()
+  CLI::Option* generate = add_choice(*memory, "--generate", kStreams, options.generate,
+                                     "Make a stream instead; interleaved is over the bank groups");
+  const auto of_streams = [&](const char* name, auto& value, const char* meaning) {
+    return memory->add_option(name, value, meaning)
+        ->type_name("N")
+        ->capture_default_str()
+        ->needs(generate);
+  };
+  of_streams("--count", options.count, "Accesses to generate")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
-  memory->add_option("--gap", options.gap, "Memory cycles between two generated arrivals")
-      ->capture_default_str()
+  of_streams("--gap", options.gap, "Memory cycles between two generated arrivals")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1'000'000}));
-  memory->add_option("--seed", options.seed, "Seed of generated addresses")->capture_default_str();
-  memory->add_option("--writes", options.write_share, "Share of generated accesses that write")
-      ->capture_default_str()
+  of_streams("--seed", options.seed, "Seed of generated addresses and of which accesses write");
+  of_streams("--writes", options.write_share, "Share of generated accesses that write, 0 to 1")
       ->check(CLI::Range(0.0, 1.0));
-  memory->add_option("--bytes", options.bytes, "Bytes of every access")
+  memory->add_option("--bytes", options.bytes, "Bytes of every access, 1 to 4096")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{4096}));
-  memory->add_option("--config", options.config, "TOML file with parameters");
-  memory->add_option("--set", options.settings, "Set one parameter; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  declare_machine(*memory, options);
   memory->add_flag("--json", options.json, "Print every figure as JSON");
-  memory->footer(kFooter);
+  memory->footer(
+      "A line of TRACE is an address, a command and an arrival in memory cycles: 0x2000D5C0 READ "
+      "30. An arrival that finds its queue full waits, and those behind it wait with it. A latency "
+      "runs from the acceptance into the queue to the last byte on the data bus.\n"
+      "The memory is dram.model with the other dram.* (sheaf config lists them); DDR4-2400 if that "
+      "is fixed, which has no banks to report on. Of a --config, the rest is of no account here. "
+      "For example:\n"
+      "  sheaf memory --generate random --gap 16\n"
+      "  sheaf memory trace.txt --set dram.model=HBM2-2000 --set dram.page=closed --json\n" +
+      exit_codes({ExitCode::kTrace}));
 }
 
 int memory_command(const MemoryOptions& options) {
-  if (options.trace.empty() == options.generate.empty()) {
+  if (options.trace.empty() != options.generate.has_value()) {
     throw Error(ExitCode::kUsage,
                 "memory needs either a TRACE or --generate sequential, random or interleaved");
   }
@@ -106,7 +114,7 @@ int memory_command(const MemoryOptions& options) {
     TextTrace trace(options.trace);
     run_trace(trace, run);
   } else {
-    const StreamSpec spec{.kind = stream_kind(options.generate),
+    const StreamSpec spec{.kind = *options.generate,
                           .count = options.count,
                           .gap = options.gap,
                           .seed = options.seed,
@@ -114,7 +122,7 @@ int memory_command(const MemoryOptions& options) {
                           .bytes = options.bytes};
     AccessStream stream(spec, run.device());
     run_stream(spec, stream, run);
-    source = fmt::format("{} stream, gap {}", options.generate, options.gap);
+    source = fmt::format("{} stream, gap {}", name_of(kStreams, *options.generate), options.gap);
   }
   run.finish();
   if (run.result().num_wrapped != 0) {

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "memory/dram/stream.h"
 
 namespace CLI {
 class App;
@@ -14,14 +17,14 @@ class App;
 namespace sheaf {
 
 struct MemoryOptions {
-  std::string trace;     ///< empty: generate
-  std::string generate;  ///< sequential, random or interleaved
+  std::string trace;  ///< empty: generate
+  std::optional<StreamKind> generate;
   std::uint64_t count = 1'000'000;
   std::uint64_t gap = 0;
   std::uint64_t seed = 1;
   double write_share = 0;
   std::uint64_t bytes = 64;
-  std::optional<std::string> config;
+  std::optional<std::filesystem::path> config;
   std::vector<std::string> settings;
   bool json = false;
 };

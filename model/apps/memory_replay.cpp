@@ -8,6 +8,7 @@
 #include <array>
 
 #include "apps/frame_run.h"
+#include "apps/shared_options.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "report/progress.h"
@@ -28,7 +29,8 @@ bool shapes_memory_only(std::string_view key) {
 
 int replay_memory(const ReplayOptions& options, const Config& config, TraceReader& reader,
                   const TraceMetadata& metadata) {
-  const ReplayMode mode = options.mode == "fixed" ? ReplayMode::kFixed : ReplayMode::kElastic;
+  const ReplayMode mode = options.mode.value_or(ReplayMode::kElastic);
+  const std::string mode_name = name_of(kReplayModes, mode);
   if (mode == ReplayMode::kElastic && !metadata.complete) {
     throw Error(ExitCode::kTrace,
                 fmt::format("{}: the recorded run was cut short, so that some accesses have no end "
@@ -39,7 +41,7 @@ int replay_memory(const ReplayOptions& options, const Config& config, TraceReade
   StatsTree stats;
   stats.add_text("run", RunValues::scene, metadata.scene_name);
   stats.add_text("run", RunValues::config_hash, config_hash(config));
-  stats.add_text("replay", ReplayValues::mode, options.mode);
+  stats.add_text("replay", ReplayValues::mode, mode_name);
   stats.add("replay", ReplayValues::recorded_cycles, metadata.cycles);
   ReplayMachine machine(config, reader, metadata, mode);
   Progress progress;
@@ -50,7 +52,7 @@ int replay_memory(const ReplayOptions& options, const Config& config, TraceReade
   });
   machine.report(stats);
   stats.add("run", RunValues::complete, complete ? 1 : 0);
-  const std::string summary = summarize_replay(stats, metadata, options.mode);
+  const std::string summary = summarize_replay(stats, metadata, mode_name);
   return finish_run({config, stats, summary, complete, "the end of the trace", options.quiet},
                     folder);
 }

@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "apps/replay_command.h"
 #include "config/config.h"
 #include "tracefile/trace_metadata.h"
 
 namespace sheaf {
+
+inline constexpr std::array<std::pair<const char*, ReplayMode>, 2> kReplayModes{
+    {{"elastic", ReplayMode::kElastic}, {"fixed", ReplayMode::kFixed}}};
 
 /// Replays a memory trace on the caches and the memory of a configuration. Returns an exit code;
 /// throws Error for what the user can mend.

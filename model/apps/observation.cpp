@@ -51,10 +51,12 @@ void declare_observation(CLI::App& command, WatchOptions& options) {
       .add_option("--timeline-every", options.every,
                   fmt::format("Take one of so many stretches of {} cycles (default 1: all)",
                               WatchWindow::kStretch))
+      ->type_name("N")
       ->check(CLI::Range(1, 1'000'000));
   command
       .add_option("--timeline-events", options.max_events,
                   "Most events to be written (default 1000000, some 30 MB)")
+      ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
 }
 

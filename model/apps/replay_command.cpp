@@ -4,13 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "apps/exit_codes.h"
 #include "apps/frame_run.h"
 #include "apps/memory_replay.h"
 #include "apps/parent_death.h"
+#include "apps/shared_options.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "config/config_text.h"
@@ -38,6 +41,12 @@ Config replay_config(const ReplayOptions& options, const TraceMetadata& metadata
   const Config recorded = resolve_config_over(base, std::nullopt, {});
   Config config = resolve_config_over(base, options.config, options.settings);
   for (const std::string& key : changed_keys(recorded, config)) {
+    if (key == "image.heat_maps") {
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{}: a replay makes no pictures; leave image.heat_maps as it was "
+                              "recorded, or simulate the scene with sheaf run",
+                              options.trace.string()));
+    }
     if (!is_forbidden(key)) continue;
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: the recorded {} depend on {}; leave it as it was recorded, or "
@@ -81,6 +90,12 @@ std::filesystem::path scene_file(const ReplayOptions& options, const TraceMetada
 
 int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
   const Config config = replay_config(options, metadata, "rays", shapes_rays);
+  if (options.mode) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: holds rays, which are simulated in time; --mode is for a trace of "
+                            "memory",
+                            options.trace.string()));
+  }
   if (config.run.fidelity == Fidelity::kSampled) {
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: a sampled run replays no trace; set another run.fidelity",
@@ -103,6 +118,32 @@ int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMe
 
 }  // namespace
 
+void declare_replay_command(CLI::App& app, ReplayOptions& options) {
+  using enum ExitCode;
+  CLI::App* replay =
+      app.add_subcommand("replay", "Run a recorded trace on another machine, without shading");
+  declare_trace(*replay, options);
+  declare_machine(*replay, options);
+  declare_cache(*replay, options);
+  replay
+      ->add_option("--scene", options.scene,
+                   "Rays: the scene it was recorded from, if it is no longer where it was")
+      ->type_name("FILE");
+  add_choice(*replay, "--mode", kReplayModes, options.mode,
+             "Memory: an access waits for those it depends on (elastic, the default), or comes in "
+             "its recorded cycle (fixed)");
+  declare_observation(*replay, options.watch);
+  declare_out(*replay, options, "result/replay");
+  replay->add_flag("--quiet", options.quiet, "Print no summary");
+  declare_parent(*replay, options);
+  replay->footer(
+      "What is not set is as it was recorded. Ray traces replay on any ray cache, heuristic, "
+      "packet size, traversal scheme and memory, and give the counters of a live run; no picture "
+      "is made. Memory traces replay on any caches, L2 and DRAM, without the scene. For example:\n"
+      "  sheaf replay result/sponza/rays.trace --set ray_cache.heuristic=mdir(96)\n" +
+      exit_codes({kBug, kScene, kStuck, kTrace, kInterrupted}));
+}
+
 int replay_command(const ReplayOptions& options) {
   if (options.parent) end_with_parent(*options.parent);
   catch_interrupts();
@@ -114,6 +155,12 @@ int replay_command(const ReplayOptions& options) {
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: the units that made these accesses are not simulated; --timeline "
                             "and --vcd need a trace of rays",
+                            options.trace.string()));
+  }
+  if (options.scene) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: holds accesses to memory, which need no scene; --scene is for a "
+                            "trace of rays",
                             options.trace.string()));
   }
   const auto is_forbidden = [](std::string_view key) { return !shapes_memory_only(key); };

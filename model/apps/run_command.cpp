@@ -4,13 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <tuple>
 
+#include "apps/exit_codes.h"
 #include "apps/frame_run.h"
 #include "apps/observation.h"
 #include "apps/parent_death.h"
 #include "apps/recording.h"
+#include "apps/shared_options.h"
 #include "base/errors.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
@@ -27,6 +30,27 @@ std::filesystem::path output_folder(const RunOptions& options) {
 }
 
 }  // namespace
+
+void declare_run_command(CLI::App& app, RunOptions& options) {
+  using enum ExitCode;
+  CLI::App* run = app.add_subcommand("run", "Simulate one frame of a scene on one machine");
+  declare_scene(*run, options);
+  declare_machine(*run, options);
+  declare_cache(*run, options);
+  run->add_option("--record", options.record,
+                  "Also write a trace into the folder: rays.trace or memory.trace; repeatable")
+      ->type_name("")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::IsMember({"rays", "memory"}));
+  declare_observation(*run, options.watch);
+  declare_out(*run, options, "result/SCENE");
+  run->add_flag("--no-images", options.no_images,
+                "Write no pictures: no image.png, image.exr or heat maps");
+  run->add_flag("--quiet", options.quiet, "Print no summary");
+  declare_parent(*run, options);
+  run->footer(exit_codes({kBug, kScene, kStuck, kInterrupted}));
+}
 
 int run_command(const RunOptions& options) {
   if (options.parent) end_with_parent(*options.parent);
@@ -59,8 +83,14 @@ std::string resolved_config(const RunOptions& options) {
   return config_toml(config, Comments::kMeanings);
 }
 
-int info_command(const std::filesystem::path& scene) {
-  const LoadedScene loaded = load_scene(scene);
+void declare_info_command(CLI::App& app, InfoOptions& options) {
+  CLI::App* info = app.add_subcommand("info", "Tell what a scene holds and needs");
+  declare_scene(*info, options);
+  info->footer(exit_codes({ExitCode::kScene}));
+}
+
+int info_command(const InfoOptions& options) {
+  const LoadedScene loaded = load_scene(options.scene);
   for (const std::string& warning : loaded.warnings) {
     std::fputs(fmt::format("sheaf: note: {}\n", warning).c_str(), stderr);
   }

@@ -9,6 +9,10 @@
 
 #include "apps/observation.h"
 
+namespace CLI {
+class App;
+}
+
 namespace sheaf {
 
 struct RunOptions {
@@ -24,6 +28,9 @@ struct RunOptions {
   WatchOptions watch;
 };
 
+/// Declares `sheaf run`, bound to `options`.
+void declare_run_command(CLI::App& app, RunOptions& options);
+
 /// `sheaf run`: loads, builds, simulates and writes the result folder. Returns an exit code; throws
 /// Error for what the user can mend.
 int run_command(const RunOptions& options);
@@ -32,7 +39,15 @@ int run_command(const RunOptions& options);
 /// would.
 std::string resolved_config(const RunOptions& options);
 
-/// `sheaf info`: what a scene holds and needs.
-int info_command(const std::filesystem::path& scene);
+struct InfoOptions {
+  std::filesystem::path scene;
+};
+
+/// Declares `sheaf info`, bound to `options`.
+void declare_info_command(CLI::App& app, InfoOptions& options);
+
+/// `sheaf info`: prints what a scene holds and needs. Returns an exit code; throws Error for what
+/// the user can mend.
+int info_command(const InfoOptions& options);
 
 }  // namespace sheaf

@@ -31,7 +31,8 @@ void declare_stability_command(CLI::App& app, StabilityOptions& options) {
       ->add_option("--only", options.only,
                    "Only cases whose GROUP/NAME contains this, for example leaks/ or needles")
       ->type_name("TEXT");
-  stability->add_option("--out", options.out, "Folder for stability.md and stability.csv");
+  stability->add_option("--out", options.out, "Folder for stability.md and stability.csv")
+      ->type_name("DIR");
   stability->footer(
       "Exit codes: 0 every case passes; 1 a bound is broken, which is a bug of the simulator;\n"
       "2 command line refused; 4 result not written; 130 interrupted (nothing is written).");

@@ -5,8 +5,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
+#include <utility>
 
+#include "apps/exit_codes.h"
+#include "apps/shared_options.h"
 #include "apps/trace_export.h"
 #include "base/errors.h"
 #include "report/table.h"
@@ -18,8 +22,12 @@
 namespace sheaf {
 namespace {
 
-constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 2 command line refused; 4 result not written; 6 trace refused.";
+constexpr std::array<std::pair<const char*, TraceOptions::Format>, 3> kFormats{
+    {{"ramulator2", TraceOptions::Format::kRamulator2},
+     {"dramsim3", TraceOptions::Format::kDramSim3},
+     {"dramsys", TraceOptions::Format::kDramSys}}};
+constexpr std::array<std::pair<const char*, TraceOptions::Level>, 2> kLevels{
+    {{"dram", TraceOptions::Level::kDram}, {"units", TraceOptions::Level::kUnits}}};
 
 std::string per(std::uint64_t bytes, std::uint64_t things) {
   if (things == 0) return "-";
@@ -98,34 +106,31 @@ void decode_all(TraceReader& reader, const TraceMetadata& metadata) {
 }  // namespace
 
 void declare_trace_command(CLI::App& app, TraceOptions& options) {
+  const std::string codes = exit_codes({ExitCode::kTrace});
   CLI::App* trace = app.add_subcommand("trace", "Look into a recorded trace, check or export it");
   trace->require_subcommand(1);
-  trace->footer(kExitCodes);
+  trace->footer(codes);
   const auto add = [&](const char* name, const char* meaning, TraceOptions::What what) {
     CLI::App* command = trace->add_subcommand(name, meaning);
-    command->add_option("TRACE", options.trace, "Trace that 'sheaf run --record' wrote")
-        ->required();
+    declare_trace(*command, options);
     command->callback([&options, what] { options.what = what; });
-    command->footer(kExitCodes);
+    command->footer(codes);
     return command;
   };
   add("info", "Tell what a trace holds", TraceOptions::What::kInfo);
   add("verify", "Check every byte of a trace", TraceOptions::What::kVerify);
   CLI::App* to_text = add("export", "Write a memory trace as text for other memory simulators",
                           TraceOptions::What::kExport);
-  to_text
-      ->add_option("--format", options.format,
-                   "ramulator2 (LD 0x12340, ST 4096: reads in hexadecimal, writes in decimal), "
-                   "dramsim3 (0x2000D5C0 READ 30) or dramsys (31: read 0x400140)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"ramulator2", "dramsim3", "dramsys"}));
-  to_text
-      ->add_option("--level", options.level,
-                   "dram: what the recorded caches leave for DRAM, whole lines; units: every "
-                   "access of the units")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"dram", "units"}));
-  to_text->add_option("--out", options.out, "File to write (default standard output)");
+  add_choice(*to_text, "--format", kFormats, options.format,
+             "ramulator2 (LD 0x12340, ST 4096: reads in hexadecimal, writes in decimal), dramsim3 "
+             "(0x2000D5C0 READ 30) or dramsys (31: read 0x400140)")
+      ->default_str(name_of(kFormats, options.format));
+  add_choice(*to_text, "--level", kLevels, options.level,
+             "dram: what the recorded caches leave for DRAM, whole lines; units: every access of "
+             "the units")
+      ->default_str(name_of(kLevels, options.level));
+  to_text->add_option("--out", options.out, "File to write (default standard output)")
+      ->type_name("FILE");
 }
 
 int trace_command(const TraceOptions& options) {

@@ -14,11 +14,16 @@ namespace sheaf {
 
 struct TraceOptions {
   enum class What : std::uint8_t { kInfo, kVerify, kExport };
+  enum class Format : std::uint8_t { kRamulator2, kDramSim3, kDramSys };
+  enum class Level : std::uint8_t {
+    kDram,  ///< what the recorded caches leave
+    kUnits  ///< every access
+  };
   What what = What::kInfo;
   std::filesystem::path trace;
-  std::string format = "dramsim3";  ///< or ramulator2, dramsys
-  std::string level = "dram";       ///< or units
-  std::filesystem::path out;        ///< empty: standard output
+  Format format = Format::kDramSim3;
+  Level level = Level::kDram;
+  std::filesystem::path out;  ///< empty: standard output
 };
 
 /// Declares `sheaf trace` with info, verify and export, bound to `options`.

@@ -88,7 +88,7 @@ class TextOutput {
   std::string text_;
 };
 
-enum class Format : std::uint8_t { kRamulator2, kDramSim3, kDramSys };
+using Format = TraceOptions::Format;
 
 void put_line(const LineAccess& access, Format format, std::string& text) {
   const auto out = std::back_inserter(text);
@@ -111,30 +111,26 @@ void put_line(const LineAccess& access, Format format, std::string& text) {
   }
 }
 
-Format format_of(const std::string& name) {
-  if (name == "ramulator2") return Format::kRamulator2;
-  return name == "dramsys" ? Format::kDramSys : Format::kDramSim3;
-}
-
 }  // namespace
 
 void export_trace(const TraceOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
   const BaseConfig base{metadata.config, options.trace.string() + ", recorded configuration"};
   const Config config = resolve_config_over(base, std::nullopt, {});
-  const Format format = format_of(options.format);
   TextOutput output(options.out);
-  const auto sink = [&](const LineAccess& access) { put_line(access, format, output.text()); };
+  const auto sink = [&](const LineAccess& access) {
+    put_line(access, options.format, output.text());
+  };
   MemoryAccesses accesses(reader, metadata.memory);
   DramRequests requests(config, metadata.memory, sink);
   for (auto access = accesses.next(); access.record != nullptr; access = accesses.next()) {
-    if (options.level == "dram") {
+    if (options.level == TraceOptions::Level::kDram) {
       requests.add(access);
     } else {
       sink({access.record->address, access.record->cycle, access.operation->bytes,
             access.operation->write});
     }
   }
-  if (options.level == "dram") requests.finish();
+  if (options.level == TraceOptions::Level::kDram) requests.finish();
   output.finish();
 }
 

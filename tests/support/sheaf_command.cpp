@@ -3,10 +3,12 @@
 #include "support/sheaf_command.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 
@@ -31,12 +33,10 @@ constexpr int kCannotStart = 127;
   _exit(kCannotStart);
 }
 
-}  // namespace
-
-CommandResult run_sheaf(const std::vector<std::string>& arguments,
-                        const std::function<void(pid_t)>& meanwhile) {
+/// Everything but standard output.
+CommandResult wait_for_sheaf(const std::vector<std::string>& arguments, const std::string& out,
+                             const std::function<void(pid_t)>& meanwhile) {
   const ScratchFolder scratch;
-  const std::string out = scratch / "out";
   const std::string err = scratch / "err";
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot start a process");
@@ -50,10 +50,37 @@ CommandResult run_sheaf(const std::vector<std::string>& arguments,
   CommandResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (result.exit_code == kCannotStart) throw std::runtime_error("cannot run " SHEAF_COMMAND);
-  result.out = read_bytes(out);
   result.err = read_bytes(err);
   result.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
   return result;
+}
+
+}  // namespace
+
+CommandResult run_sheaf(const std::vector<std::string>& arguments,
+                        const std::function<void(pid_t)>& meanwhile) {
+  const ScratchFolder scratch;
+  const std::string out = scratch / "out";
+  CommandResult result = wait_for_sheaf(arguments, out, meanwhile);
+  result.out = read_bytes(out);
+  return result;
+}
+
+CommandResult run_sheaf_into(const std::filesystem::path& out,
+                             const std::vector<std::string>& arguments) {
+  return wait_for_sheaf(arguments, out, {});
+}
+
+void expect_refusal(const CommandResult& result, ExitCode code,
+                    const std::vector<std::string>& words) {
+  EXPECT_EQ(result.exit_code, static_cast<int>(code)) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(result.err.starts_with("sheaf: ")) << result.err;
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_TRUE(result.err.ends_with('\n')) << result.err;
+  for (const std::string& word : words) {
+    EXPECT_NE(result.err.find(word), std::string::npos) << word << " is not in: " << result.err;
+  }
 }
 
 std::vector<std::string> run_arguments(const std::filesystem::path& scene,

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "base/errors.h"
+
 namespace sheaf::test {
 
 struct CommandResult {
@@ -24,6 +26,15 @@ struct CommandResult {
 /// called with its process number once it has been started.
 [[nodiscard]] CommandResult run_sheaf(const std::vector<std::string>& arguments,
                                       const std::function<void(pid_t)>& meanwhile = {});
+
+/// The same with standard output going to `out`, which is not read: the result's `out` is empty.
+[[nodiscard]] CommandResult run_sheaf_into(const std::filesystem::path& out,
+                                           const std::vector<std::string>& arguments);
+
+/// Expects a refusal with this exit code: one line that begins with "sheaf: " and holds all words,
+/// on standard error alone.
+void expect_refusal(const CommandResult& result, ExitCode code,
+                    const std::vector<std::string>& words);
 
 /// Arguments of `sheaf run --quiet`; every setting is a key=value.
 [[nodiscard]] std::vector<std::string> run_arguments(const std::filesystem::path& scene,

@@ -42,18 +42,6 @@ std::map<std::string, std::string> content(const fs::path& folder) {
 
 class BadInput : public testing::Test {
  protected:
-  /// One line that begins with "sheaf: " and holds all words, on standard error alone.
-  static void expect_refusal(const CommandResult& result, ExitCode code, const Words& words) {
-    EXPECT_EQ(result.exit_code, static_cast<int>(code)) << result.err;
-    EXPECT_EQ(result.out, "");
-    EXPECT_TRUE(result.err.starts_with("sheaf: ")) << result.err;
-    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-    EXPECT_TRUE(result.err.ends_with('\n')) << result.err;
-    for (const std::string& word : words) {
-      EXPECT_NE(result.err.find(word), std::string::npos) << word << " is not in: " << result.err;
-    }
-  }
-
   /// Refused with neither a new folder nor a change to a former result.
   void expect_no_trace(const fs::path& scene, const std::vector<std::string>& settings,
                        ExitCode code, const Words& words) {
@@ -228,10 +216,7 @@ TEST_F(BadInput, FolderWithOtherThingsInIt) {
 TEST_F(BadInput, WrongArguments) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{}, {"run"}, {"simulate"}, {"run", "a.glb", "--fast"}}) {
-    const CommandResult result = run_sheaf(arguments);
-    EXPECT_EQ(result.exit_code, static_cast<int>(ExitCode::kUsage));
-    EXPECT_NE(result.err, "");
-    EXPECT_EQ(result.out, "");
+    expect_refusal(run_sheaf(arguments), ExitCode::kUsage, {});
   }
 }
 

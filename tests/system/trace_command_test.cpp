@@ -159,8 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"l2.write_policy=through"},
                     std::vector<std::string>{"l2.write_allocate=true"},
                     std::vector<std::string>{"film_cache.write_policy=through"},
-                    std::vector<std::string>{"film_cache.write_allocate=false"},
-                    std::vector<std::string>{"l2.mode=absent"}));
+                    std::vector<std::string>{"film_cache.write_allocate=false"}));
 
 /// Misses of one cache with LRU, simulated by itself on all accesses of a trace.
 std::uint64_t simulate(const std::string& trace, const CurveShape& shape, std::uint32_t ways) {

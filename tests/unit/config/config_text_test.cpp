@@ -30,7 +30,7 @@ Config read_back(const std::string& toml) {
 
 const std::vector<std::string>& unusual_settings() {
   static const std::vector<std::string> kSettings{
-      "run.fidelity=functional",
+      "run.fidelity=clocked",
       "run.max_cycles=281474976710656",
       "image.heat_maps=rays,node_visits",
       "scene.reflectance=0.1",

@@ -171,7 +171,7 @@ TEST(LoadMaterial, AlphaIsOpaqueWithAWarning) {
 TEST(LoadMaterial, NamesCannotBreakALine) {
   json m = pbr(0, 1);
   m["name"] = "a\nb\x1b[31m";
-  EXPECT_EQ(load_material(m).name, "a b [31m");
+  EXPECT_EQ(load_material(m).name, "a?b?[31m");
 }
 
 }  // namespace
