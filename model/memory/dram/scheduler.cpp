@@ -105,7 +105,10 @@ bool DramScheduler::remains_best(const Choice& choice, const DramRequest& joined
   const BankLists::Index entry = candidates_.entry[joined.bank];
   renew(joined.bank);
   stale_ = 0;
-  if (candidates_.ready[joined.bank] == ready && candidates_.entry[joined.bank] == entry) {
+  // What an empty bank has for a candidate is that of a request long served.
+  const bool had_others = queue()[queue().oldest(joined.bank)].next != BankLists::kNone;
+  if (had_others && candidates_.ready[joined.bank] == ready &&
+      candidates_.entry[joined.bank] == entry) {
     return true;
   }
   const bool of_that_bank = choice.entry != BankLists::kNone && choice.bank == joined.bank;

@@ -106,5 +106,18 @@ TEST(DramQueueing, RandomAccessesAreBoundByTheActivationWindow) {
   EXPECT_GE(share, 0.97 * bound);
 }
 
+// It gets the other's place in the queue in the very cycle in which the other's read is issued, and
+// is ready in that cycle, too.
+TEST(DramQueueing, ARequestThatTakesTheOnlyPlaceAtOnceIsServed) {
+  ChannelBench bench(ddr4([](DramSpec& s) {
+    s.read_queue = 1;
+    s.controller_latency = 0;
+    s.refresh = false;
+  }));
+  bench.read(0, {.row = 1, .column = 0}).read(0, {.row = 1, .column = 8}).run();
+  EXPECT_EQ(bench.at(DramCommand::kRead, 1), bench.at(DramCommand::kRead, 0) + 6);  // tCCD_L
+  EXPECT_NE(bench.done_at(1), kNever);
+}
+
 }  // namespace
 }  // namespace sheaf::test
