@@ -70,7 +70,7 @@ class ReplaySchedule final : public Agent {
     std::unique_ptr<ChainReader> reader;
     std::size_t group = 0;
     bool awaited = true;
-    StepWindow steps;
+    StepWindow steps{1, 1};  ///< as large as the stream's records need, once it has any
     std::map<std::uint64_t, std::uint64_t> epochs;  ///< chains not ended yet, by epoch
   };
   struct Arrival {
