@@ -129,6 +129,11 @@ std::vector<StabilityCase> sum_cases() {
       [] { return spread(100'000, -149, -126); });
   add("overflow", "1000 contributions near the largest float",
       [] { return spread(1000, 126, 128); });
+  // Half a step of unorm8, and, beside 1 and a number next to it, half a step of half; rounded to a
+  // float first, the latter would be a tie.
+  add("beside ties", "contributions just above half a step of unorm8 and of half", [] {
+    return std::vector<float>{0.5F / 255.0F * 1.000001F, 1.0F, 0x1.000002p-11F, 0x1.000002p-11F};
+  });
   cases.push_back({"sums", "no numbers", "negative, infinite and NaN contributions",
                    [](const Effort&) { return refuse(); }});
   return cases;
