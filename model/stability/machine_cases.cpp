@@ -7,114 +7,21 @@
 #include <cmath>
 
 #include "stability/catalogue.h"
-#include "stability/covering_array.h"
+#include "stability/machine_factors.h"
 #include "stability/machine_run.h"
 
 namespace sheaf::stability {
 namespace {
 
-struct Factor {
-  std::string key;
-  std::vector<std::string> levels;
-};
-
-/// How far apart things are.
-struct Extremes {
-  std::string slow;  ///< cycles of what takes long
-  std::string many;  ///< units, contexts, lanes, banks, rays of a packet
-  std::vector<std::string> clocks;
-};
-
-/// The extremes of latencies, rates, units, depths and MSHRs, and the choices of the policies
-/// below. Not varied are the ray cache's victims and grouping, the shader cache's key, what caches
-/// hold and how they replace, sectors, banks and ports of private caches, targets of MSHRs, write
-/// policies and buffers, the spill queue, the crossbar's queue, and the queues and pages of DRAM.
-/// The scene has no texture, so there is no texture cache.
-std::vector<Factor> factors(const Extremes& extremes) {
-  const std::vector<std::string> cycles = {"1", extremes.slow};
-  const std::vector<std::string> depths = {"1", "1000000"};
-  const std::vector<std::string> units = {"1", extremes.many};
-  const std::vector<std::string> lines = {"1", "4096"};
-  std::vector<Factor> all = {
-      {"ray_cache.heuristic", {"none", "dir", "mdir(96)", "pos(1)", "opos", "grid(4)"}},
-      {"traversal.scheme", {"single", "masked", "interval", "interval_entry", "omni"}},
-      {"dram.model", {"fixed", "DDR4-2400", "HBM2-2000"}},
-      {"clock.frequency", extremes.clocks},
-      {"ray_cache.timeout", {"0", "1", "1000000"}},
-      {"ray_cache.cells", {"1", "4096"}},
-      {"ray_cache.order", {"arrival", "breadth_first"}},
-      {"ray_cache.rays_per_cycle", {"1", "64"}},
-      {"ray_cache.latency", cycles},
-      {"shader_cache.cells", {"0", "1", "64"}},
-      {"flow.control", {"tile", "credits"}},
-      {"flow.tile_size", {"8", "1024"}},
-      {"packet.size", units},
-      {"packet_arbiter.policy", {"alternate", "primary_first", "secondary_first"}},
-      {"packet_fifo.depth", depths},
-      {"packet_fifo.latency", cycles},
-      {"primary_source.interval", cycles},
-      {"link.latency", cycles},
-      {"link.depth", depths},
-      {"link.memory_latency", cycles},
-      {"link.memory_width", {"1", "4096"}},
-      {"dram.latency", cycles},
-      {"dram.bytes_per_cycle", {"1", "65536"}},
-      {"l2.banks", units},
-      {"l2.hit_latency", cycles},
-      {"l2.mshrs", lines},
-  };
-  for (const std::string unit : {"traversal_unit", "intersection_unit", "shader_unit"}) {
-    for (const char* number : {"count", "contexts", "lanes"}) {
-      all.push_back({unit + "." + number, units});
-    }
-    all.push_back({unit + ".initiation_interval", cycles});
-    all.push_back({unit + ".latency", cycles});
-  }
-  for (const std::string cache :
-       {"node_cache", "triangle_cache", "attribute_cache", "film_cache"}) {
-    all.push_back({cache + ".mode", {"normal", "perfect", "absent"}});
-    all.push_back({cache + ".mshrs", lines});
-    all.push_back({cache + ".hit_latency", cycles});
-  }
-  return all;
-}
-
-std::vector<Factor> with_spilling_and_crossbars(std::vector<Factor> all) {
-  for (Factor& factor : all) {
-    if (factor.key == "flow.control") factor.levels.emplace_back("spill");
-  }
-  all.push_back({"crossbar.request_width", {"0", "1"}});
-  all.push_back({"crossbar.response_width", {"0", "1"}});
-  return all;
-}
-
-/// Machines as settings: every combination of the levels of any `strength` factors.
-std::vector<std::vector<std::string>> machines(const std::vector<Factor>& all,
-                                               std::size_t strength) {
-  std::vector<std::size_t> levels;
-  levels.reserve(all.size());
-  for (const Factor& factor : all) levels.push_back(factor.levels.size());
-  std::vector<std::vector<std::string>> result;
-  for (const auto& row : covering_array(levels, strength)) {
-    std::vector<std::string> settings;
-    for (std::size_t f = 0; f < all.size(); ++f) {
-      settings.push_back(all[f].key + "=" + all[f].levels[row[f]]);
-    }
-    result.push_back(std::move(settings));
-  }
-  return result;
-}
-
 std::vector<Finding> stiff_machines(const Effort& effort) {
   const MachineScene scene(2);
   const MachineRun untimed = scene.run({"run.fidelity=functional"});
-  const std::vector<Factor> all =
-      with_spilling_and_crossbars(factors({"1000000", "64", {"1MHz", "1GHz", "1THz"}}));
+  const std::vector<Factor> all = machine_factors({"1000000", "64", {"1MHz", "1GHz", "1THz"}});
   const std::size_t strength = effort.quick ? 2 : 3;
   Failures broken;
   Failures pictures;
   Failures rays;
-  for (const std::vector<std::string>& settings : machines(all, strength)) {
+  for (const std::vector<std::string>& settings : covering_machines(all, strength)) {
     const MachineRun run = scene.run(settings);
     const auto where = [&] {
       return fmt::format("--set {}: {}", fmt::join(settings, " --set "), run.error);
@@ -140,9 +47,8 @@ std::vector<Finding> stiff_machines(const Effort& effort) {
 std::vector<Finding> against_clocked() {
   const MachineScene scene(1);
   Failures unlike;
-  const std::vector<Factor> all =
-      with_spilling_and_crossbars(factors({"10", "4", {"500MHz", "2GHz"}}));
-  for (std::vector<std::string> settings : machines(all, 2)) {
+  const std::vector<Factor> all = machine_factors({"10", "4", {"500MHz", "2GHz"}});
+  for (std::vector<std::string> settings : covering_machines(all, 2)) {
     const MachineRun timed = scene.run(settings);
     settings.emplace_back("run.fidelity=clocked");
     const MachineRun clocked = scene.run(settings);
@@ -247,7 +153,7 @@ std::vector<StabilityCase> machine_cases() {
            stiff_machines},
           {"machines", "against clocked",
            "latencies and rates of 1 and 10, queues of 1 and 1e6, units of 1 and 4, "
-           "policies of rays, packets and traversal",
+           "every policy of the machine",
            [](const Effort&) { return against_clocked(); }},
           {"machines", "long runs", "1e12 cycles", [](const Effort&) { return long_runs(); }},
           {"machines", "clocks", "core clocks from 1 kHz to 1 THz beside memory of 1 to 2 GHz",

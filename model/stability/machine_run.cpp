@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "config/read_config.h"
@@ -20,16 +21,43 @@ namespace {
 
 constexpr unsigned kSecondsToHang = 60;
 
-/// A glassy, shiny ball in an open box of mirrors.
+Texture checks() {
+  Texture texture;
+  texture.width = 16;
+  texture.height = 16;
+  for (std::uint32_t i = 0; i < texture.width * texture.height; ++i) {
+    const auto grey = static_cast<std::uint8_t>((i + i / texture.width) % 2 == 0 ? 255 : 60);
+    texture.rgba.insert(texture.rgba.end(), {grey, grey, grey, 255});
+  }
+  return texture;
+}
+
+/// The walls of the box, which are the triangles behind those of the ball, get a material of their
+/// own, so that there are two materials and two sets of textures to be sorted by.
+void make_walls(Scene& scene, std::size_t first_triangle) {
+  Material walls;
+  walls.diffuse_weight = 0.5F;
+  walls.mirror_weight = 0.5F;
+  scene.materials.push_back(walls);
+  std::fill(scene.triangle_material.begin() + static_cast<std::ptrdiff_t>(first_triangle),
+            scene.triangle_material.end(), std::uint16_t{1});
+}
+
+/// A glassy, shiny, checked ball in an open box of mirrors.
 Scene make_scene() {
   Material glass;
   glass.diffuse_weight = 0.3F;
   glass.mirror_weight = 0.2F;
   glass.transmission = 0.5F;
+  glass.base_color_texture = 0;
   Mesh mesh = bumpy_sphere(6, 8, 0.1F);
+  const std::size_t ball = mesh.triangles.size();
   mesh.add_quad(Vec3(-3.0F, -1.2F, -3.0F), Vec3(0.0F, 0.0F, 6.0F), Vec3(6.0F, 0.0F, 0.0F));
   mesh.add_quad(Vec3(-3.0F, -1.2F, -3.0F), Vec3(6.0F, 0.0F, 0.0F), Vec3(0.0F, 4.0F, 0.0F));
   Scene scene = scene_of(mesh, glass);
+  make_walls(scene, ball);
+  scene.textures = {checks()};
+  for (const Vec3& p : scene.positions) scene.uvs.emplace_back(p.x, p.y);
   Light light;
   light.position = Vec3(2.0F, 4.0F, 3.0F);
   light.intensity = Vec3(50.0F);

@@ -25,7 +25,7 @@ struct MachineRun {
 /// A scene prepared for pictures of 16 × 16 pixels in the exact film, `recursion_level` deep.
 class MachineScene {
  public:
-  /// A small one with mirrors, glass and a light.
+  /// A small one with two materials, mirrors, glass, a texture and a light.
   explicit MachineScene(std::uint32_t recursion_level);
   MachineScene(Scene scene, std::uint32_t recursion_level);
   /// `settings` are those of --set. A machine that takes more than a minute of processor time
