@@ -150,6 +150,7 @@ int curve_command(const CurveOptions& options) {
   reader.verify();
   const TraceMetadata metadata = read_metadata(reader);
   ResultFolder folder(options.out);
+  folder.spare(options.trace);
   MemoryAccesses accesses(reader, metadata.memory);
   const auto curves = measure_miss_curves(accesses, metadata.memory, shapes, interrupted);
   if (interrupted()) {

@@ -38,6 +38,7 @@ int replay_memory(const ReplayOptions& options, const Config& config, TraceReade
                             reader.path().string()));
   }
   ResultFolder folder(options.out.empty() ? "result/replay" : options.out);
+  folder.spare(options.trace);
   StatsTree stats;
   stats.add_text("run", RunValues::scene, metadata.scene_name);
   stats.add_text("run", RunValues::config_hash, config_hash(config));

@@ -104,6 +104,7 @@ int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMe
   check_observation(options.watch, config);
   const std::filesystem::path scene = scene_file(options, metadata);
   ResultFolder folder(options.out.empty() ? "result/replay" : options.out);
+  folder.spare(options.trace);
   FrameJob job{config, scene, metadata.scene_name, false, options.quiet, {}};
   job.trees = tree_folder(options.cache);
   job.guest = [&](const PreparedScene& prepared, Frame& /*frame*/) {
@@ -160,6 +161,12 @@ int replay_command(const ReplayOptions& options) {
   if (options.scene) {
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: holds accesses to memory, which need no scene; --scene is for a "
+                            "trace of rays",
+                            options.trace.string()));
+  }
+  if (!options.cache.empty()) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: holds accesses to memory, which need no kd-tree; --cache is for a "
                             "trace of rays",
                             options.trace.string()));
   }

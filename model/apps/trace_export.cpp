@@ -116,6 +116,12 @@ void put_line(const LineAccess& access, Format format, std::string& text) {
 void export_trace(const TraceOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
   const BaseConfig base{metadata.config, options.trace.string() + ", recorded configuration"};
   const Config config = resolve_config_over(base, std::nullopt, {});
+  std::error_code ignored;
+  if (fs::equivalent(options.out, options.trace, ignored)) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("--out {}: is the trace to be exported; name another file",
+                            options.out.string()));
+  }
   TextOutput output(options.out);
   const auto sink = [&](const LineAccess& access) {
     put_line(access, options.format, output.text());

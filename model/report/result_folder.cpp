@@ -118,6 +118,17 @@ void ResultFolder::remove_made_folders() noexcept {
   for (const fs::path& made : std::ranges::reverse_view(made_)) fs::remove(made, ignored);
 }
 
+void ResultFolder::spare(const fs::path& input) const {
+  std::error_code ignored;
+  for (const char* name : kResultNames) {
+    if (!fs::equivalent(folder_ / name, input, ignored)) continue;
+    fail(
+        fmt::format("holds {}, which the results made of it would replace; choose another folder "
+                    "with --out",
+                    input.filename().string()));
+  }
+}
+
 fs::path ResultFolder::stage(std::string_view name) {
   if (std::ranges::find(kResultNames, name) == kResultNames.end()) {
     throw std::logic_error(fmt::format("{} is not listed as the name of a result", name));

@@ -28,6 +28,9 @@ class ResultFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
+  /// Throws Error(kOutput) if commit() would replace or remove the file `input`.
+  void spare(const std::filesystem::path& input) const;
+
   /// Where a writer that wants a file name shall write the result called `name`, one of those that
   /// result_folder.cpp lists.
   [[nodiscard]] std::filesystem::path stage(std::string_view name);

@@ -189,6 +189,15 @@ TEST_P(MemoryTrace, IsRefusedWithParametersThatAreNotOfTheMemory) {
   }
 }
 
+TEST_P(MemoryTrace, IsRefusedWithOptionsThatAreForRays) {
+  std::ignore = record({});
+  for (const std::string option : {"--scene", "--cache"}) {
+    const CommandResult result = run_sheaf({"replay", trace_.string(), option, "here"});
+    EXPECT_EQ(result.exit_code, 2) << option;
+    EXPECT_NE(result.err.find(option + " is for a trace of rays"), std::string::npos) << result.err;
+  }
+}
+
 TEST_P(MemoryTrace, CutShortIsReplayedInItsCyclesOnly) {
   std::ignore = record({"run.max_cycles=20000"});
   const CommandResult result = try_replay({});

@@ -109,6 +109,36 @@ TEST(TraceCommand, ExportsIntoAPipeAndLeavesItThere) {
   EXPECT_TRUE(text == run_sheaf({"trace", "export", trace}).out);
 }
 
+/// Puts a trace into a folder of results, and lets a command write there what it makes of it.
+void expect_to_be_spared(const std::string& name, const std::string& committed,
+                         std::vector<std::string> command) {
+  const ScratchFolder scratch;
+  const std::filesystem::path folder = scratch / "result";
+  const std::string whole = committed_trace("dragon-memory").string();
+  ASSERT_EQ(run_sheaf({"curve", whole, "--out", folder.string()}).exit_code, 0);
+  std::filesystem::copy_file(committed_trace(committed), folder / name);
+  command.insert(command.end(), {(folder / name).string(), "--out", (folder / ".").string()});
+  const CommandResult result = run_sheaf(command);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("holds " + name), std::string::npos) << result.err;
+  EXPECT_TRUE(read_bytes(folder / name) == read_bytes(committed_trace(committed)));
+}
+
+TEST(TraceCommand, DoesNotReplaceTheTraceThatItReads) {
+  expect_to_be_spared("memory.trace", "dragon-memory", {"curve"});
+  expect_to_be_spared("memory.trace", "dragon-memory", {"replay"});
+  expect_to_be_spared("rays.trace", "sponza-rays",
+                      {"replay", "--scene", committed_scene("sponza").string()});
+}
+
+TEST(TraceCommand, DoesNotExportOverTheTraceThatItReads) {
+  const ScratchFolder scratch;
+  const std::string trace = (scratch / "memory.trace").string();
+  std::filesystem::copy_file(committed_trace("dragon-memory"), trace);
+  EXPECT_EQ(run_sheaf({"trace", "export", trace, "--out", trace}).exit_code, 2);
+  EXPECT_TRUE(read_bytes(trace) == read_bytes(committed_trace("dragon-memory")));
+}
+
 // Requests are those of untimed caches, so they need not be as many as in time, but nearly.
 TEST(TraceCommand, ExportsAboutTheRequestsThatTheRunMade) {
   const ScratchFolder scratch;
