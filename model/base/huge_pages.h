@@ -17,12 +17,11 @@ void reserve_on_huge_pages(std::vector<T>& values, std::size_t count) {
   constexpr std::uintptr_t kPage = 4096;
   constexpr std::uintptr_t kHugePage = 2U << 20U;
   values.reserve(count);
-  const auto begin = reinterpret_cast<std::uintptr_t>(values.data());
-  const std::uintptr_t first_page = (begin + kPage - 1) / kPage * kPage;
-  const std::uintptr_t end = begin + values.capacity() * sizeof(T);
-  if (end < first_page + kHugePage) return;
+  const std::size_t bytes = values.capacity() * sizeof(T);
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(values.data()) % kPage;
+  if (bytes < before + kHugePage) return;
   // Only advice: without it everything works as well.
-  madvise(reinterpret_cast<void*>(first_page), end - first_page, MADV_HUGEPAGE);
+  madvise(reinterpret_cast<char*>(values.data()) + before, bytes - before, MADV_HUGEPAGE);
 }
 
 }  // namespace sheaf

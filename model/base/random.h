@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 
 namespace sheaf {
@@ -22,7 +23,10 @@ class Random {
   constexpr std::uint64_t next() noexcept { return mix64(state_ += 0x9e3779b97f4a7c15ULL); }
 
   /// Uniform in [0, bound); bound > 0. The modulo bias is below 2^-32 for bounds below 2^32.
-  constexpr std::uint64_t below(std::uint64_t bound) noexcept { return next() % bound; }
+  constexpr std::uint64_t below(std::uint64_t bound) noexcept {
+    assert(bound > 0);
+    return next() % bound;
+  }
 
   /// Uniform in [0, 1), a multiple of 2^-24.
   constexpr float uniform() noexcept { return static_cast<float>(next() >> 40) * 0x1p-24F; }

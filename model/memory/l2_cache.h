@@ -134,6 +134,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
     Cycles at = 0;
     Address address = 0;
     bool write = false;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees the comparison's own zero
     auto operator<=>(const Answer&) const = default;
   };
   /// A line as a bank sees it.
@@ -145,7 +146,7 @@ class L2Cache final : public sc_core::sc_module, public Agent {
   void end_of_elaboration() override;
   void start_of_simulation() override;
   void arrive(const LineRequest& request, Cycles now);
-  void accept(const LineRequest& request, Cycles now);
+  void accept(const LineRequest& what, Cycles now);
   bool serve(Bank& bank, const Request& request, Cycles now);
   void serve_queues(Cycles now);
   void cross(Cycles now);

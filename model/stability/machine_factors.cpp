@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/machine_factors.h"
 
+#include <fmt/format.h>
+
 #include "stability/covering_array.h"
 
 namespace sheaf::stability {
@@ -11,7 +13,8 @@ using Strings = std::vector<std::string>;
 
 Factor one_key(const std::string& key, const Strings& values) {
   Factor factor;
-  for (const std::string& value : values) factor.levels.push_back({key + "=" + value});
+  for (const std::string& value : values)
+    factor.levels.push_back({fmt::format("{}={}", key, value)});
   return factor;
 }
 
@@ -44,7 +47,7 @@ class Factors {
     add("ray_cache.cells", {"1", "4096"});
     add("ray_cache.victim", {"fullest", "oldest", "lru"});
     add("ray_cache.order", {"arrival", "breadth_first"});
-    add("ray_cache.group_by_kind", kSwitch);
+    add("ray_cache.group_by_kind", switch_);
     add("ray_cache.resident_voxels", {"0", "1024"});
     add("ray_cache.rays_per_cycle", {"1", "64"});
     add("ray_cache.latency", cycles_);
@@ -71,10 +74,10 @@ class Factors {
   }
 
   void links() {
-    add("packet_fifo.depth", kDepths);
+    add("packet_fifo.depth", depths_);
     add("packet_fifo.latency", cycles_);
     add("link.latency", cycles_);
-    add("link.depth", kDepths);
+    add("link.depth", depths_);
     add("link.memory_latency", cycles_);
     add("link.memory_width", {"1", "4096"});
     // Requests wait before a bank only where they have a width.
@@ -93,7 +96,7 @@ class Factors {
     add(name + ".replacement", {"lru", "plru", "fifo", "random"});
     add(name + ".ports", {"1", "64"});
     add(name + ".banks", units_);
-    add(name + ".mshrs", kLines);
+    add(name + ".mshrs", lines_);
     add(name + ".mshr_targets", {"0", "1"});
     add(name + ".hit_latency", cycles_);
   }
@@ -105,7 +108,7 @@ class Factors {
 
   void writes(const std::string& name) {
     add(name + ".write_policy", {"back", "through"});
-    add(name + ".write_allocate", kSwitch);
+    add(name + ".write_allocate", switch_);
     add(name + ".write_buffer", {"0", "1"});
   }
 
@@ -128,12 +131,12 @@ class Factors {
                      {"dram.write_queue=1024", "dram.write_high=1024", "dram.write_low=1023"}}});
     add("dram.row_hit_cap", {"0", "1000000"});
     add("dram.controller_latency", {"0", "1000"});
-    add("dram.refresh", kSwitch);
+    add("dram.refresh", switch_);
   }
 
-  const Strings kSwitch = {"false", "true"};
-  const Strings kDepths = {"1", "1000000"};
-  const Strings kLines = {"1", "4096"};
+  const Strings switch_ = {"false", "true"};
+  const Strings depths_ = {"1", "1000000"};
+  const Strings lines_ = {"1", "4096"};
   Strings cycles_, units_, clocks_;
   std::vector<Factor> all_;
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "system/coherence.h"
 
+#include <utility>
+
 #include "shading/packet_shader.h"
 #include "system/reported_values.h"
 #include "units/primary_source.h"
@@ -17,8 +19,8 @@ bool stamp(std::vector<std::uint32_t>& stamps, std::uint32_t index, std::uint32_
 
 }  // namespace
 
-CoherencePass::CoherencePass(const Config& config, const PreparedScene& scene)
-    : config_(config), scene_(scene) {
+CoherencePass::CoherencePass(Config config, const PreparedScene& scene)
+    : config_(std::move(config)), scene_(scene) {
   for (Scope* scope : {&primary_, &secondary_}) {
     scope->node_stamps.resize(scene.tree.nodes.size());
     scope->triangle_stamps.resize(scene.triangles.size());

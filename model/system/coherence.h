@@ -25,7 +25,7 @@ SHEAF_STATS(CoherenceCounts, SHEAF_COHERENCE_COUNTERS);
 /// scope (a tile of primary pixels, or the frame).
 class CoherencePass {
  public:
-  CoherencePass(const Config& config, const PreparedScene& scene);
+  CoherencePass(Config config, const PreparedScene& scene);
 
   /// `stop` is asked at every packet of primary rays; once it says so, the pass ends there. Returns
   /// whether it is complete.

@@ -66,7 +66,7 @@ class FunctionalPipeline {
   std::vector<RayPacket*> departures_;
   RayPacket* held_primary_ = nullptr;  ///< made, but not admitted yet
   PacketShading shading_;
-  LaneCounts lanes_;
+  LaneCounts lanes_{};
   TraceLog log_;
   std::uint32_t last_tile_ = ~0U;    ///< of the packet admitted last
   std::uint32_t num_monitored_ = 0;  ///< tiles begun, as the monitor knows

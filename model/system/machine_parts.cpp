@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "system/machine_parts.h"
 
+#include <utility>
+
 #include "system/clocked_machine.h"
 #include "system/machine.h"
 #include "system/pipeline_parts.h"
@@ -10,14 +12,14 @@ namespace sheaf {
 
 template <typename Kind>
 MachineParts<Kind>::MachineParts(const Config& config, const BuildPlan& plan,
-                                 const PreparedScene& scene, Frame& frame, const RunHooks& hooks)
+                                 const PreparedScene& scene, Frame& frame, RunHooks hooks)
     : config_(config),
       plan_(plan),
       scene_(scene),
       frame_(frame),
       packets_(static_cast<int>(config.packet.size)),
       shader_(make_shader(config, scene.scene, frame)),
-      hooks_(hooks),
+      hooks_(std::move(hooks)),
       flow_(make_flow_control(config, plan, scene.scene)) {}
 
 template <typename Kind>

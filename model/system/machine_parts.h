@@ -27,7 +27,7 @@ class MachineParts {
 
  protected:
   MachineParts(const Config& config, const BuildPlan& plan, const PreparedScene& scene,
-               Frame& frame, const RunHooks& hooks);
+               Frame& frame, RunHooks hooks);
   ~MachineParts();
 
   void finish_accounts(Cycles end);

@@ -67,8 +67,8 @@ class TagHierarchy {
   }
   Level& level(Cache cache) { return levels_[static_cast<std::size_t>(cache)]; }
   void add_level(Cache cache, const CacheSpec& spec, std::size_t units);
-  bool finds(Level& level, std::size_t unit, std::uint64_t line);
-  void fill(Level& level, std::size_t unit, std::uint64_t line, bool dirty);
+  bool finds(Level& at, std::size_t unit, std::uint64_t line);
+  void fill(Level& at, std::size_t unit, std::uint64_t line, bool dirty);
   Served read_l2(Address address);
   void write_l2(Address address, Bytes bytes);
   void put_l2(const Place& where, bool dirty);

@@ -54,8 +54,8 @@ void DramScheduler::renew(std::uint32_t index) {
 }
 
 void DramScheduler::set_limits(const Buses& buses) {
-  std::uint64_t* const column = from_.data() + kColumn * num_groups_;
-  std::uint64_t* const activate = from_.data() + kActivate * num_groups_;
+  std::uint64_t* const column = from_.data() + std::size_t{kColumn} * num_groups_;
+  std::uint64_t* const activate = from_.data() + std::size_t{kActivate} * num_groups_;
   const std::uint32_t groups_per_rank = device_.organization.bank_groups;
   std::uint32_t group = 0;
   for (std::uint32_t rank = 0; group < num_groups_; ++rank) {
@@ -66,7 +66,7 @@ void DramScheduler::set_limits(const Buses& buses) {
       activate[group] = 2 * std::max(banks_.group_activate_at(group), activate_at) + 1;
     }
   }
-  from_[kPrecharge * num_groups_] = 2 * buses.row + 1;
+  from_[std::size_t{kPrecharge} * num_groups_] = 2 * buses.row + 1;
 }
 
 DramScheduler::Choice DramScheduler::choose(const Buses& buses) {

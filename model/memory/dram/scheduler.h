@@ -72,7 +72,7 @@ class DramScheduler {
     std::array<BankLists::Index, kMostBanks> entry;
   };
   void choose_direction();
-  void renew(std::uint32_t bank);
+  void renew(std::uint32_t index);
   void set_limits(const Buses& buses);
   [[nodiscard]] std::uint64_t order_of(std::uint32_t bank) const {
     return std::max(candidates_.ready[bank], from_[candidates_.limit[bank]]);
