@@ -106,12 +106,26 @@ TEST_F(HostileTrace, IsRefusedByTheFirstByteTooMany) {
   expect_refused(run_sheaf({"trace", "verify", trace_}), "touch more than there can be");
 }
 
+TEST_F(HostileTrace, OfManyCachesThatNothingUsesHasSmallCurves) {
+  write(1, 8, 4, 0, [](json& all) {
+    json& streams = all["memory"]["streams"];
+    for (std::size_t i = 1; i < 256; ++i) {
+      json unit = streams[0];
+      unit["name"] = "unit" + std::to_string(i);
+      streams.push_back(unit);
+    }
+  });
+  const CommandResult result = run({"curve", trace_, "--sets", "65536"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_LT(result.peak_bytes, 200 * kMiB);
+}
+
 TEST_F(HostileTrace, OfManyEmptyFramesIsReadToItsEnd) {
   write(1, 8, 4);
   TraceReader reader(trace_);
   TraceWriter writer(trace_, reader.identity());
   const ByteVector empty = encode_memory_block({}, {});
-  for (int i = 0; i < 300'000; ++i) writer.add(memory_key(0, 0), 0, [empty] { return empty; });
+  for (int i = 0; i < 100'000; ++i) writer.add(memory_key(0, 0), 0, [empty] { return empty; });
   ByteVector raw;
   reader.read(reader.frames()[0], raw);
   writer.add(memory_key(0, 0), reader.frames()[0].num_records, [raw] { return raw; });
