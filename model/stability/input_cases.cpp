@@ -211,6 +211,8 @@ std::vector<Spoilt> beyond_memory() {
        [](Json& j) { j["buffers"][0]["uri"] = "huge.bin"; }},
       {"an image of 17 GB", "larger than 16384 x 16384",
        [](Json& j) { j["images"][0]["uri"] = kHugeImage; }},
+      {"an image of too long lines", "limits of 16384 a side",
+       [](Json& j) { j["images"][0]["uri"] = kLongImage; }},
       {"a texel more than fits into all images", "268435456 in all images",
        [](Json& j) {
          j["images"].push_back({{"uri", kFullImage}});
