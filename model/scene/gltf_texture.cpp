@@ -26,9 +26,9 @@ Texture::Wrap to_wrap(int mode, const std::string& place) {
   }
 }
 
-template <std::size_t N>
-bool begins_with(ByteView bytes, const std::array<std::uint8_t, N>& magic) {
-  return bytes.size() > N && std::equal(magic.begin(), magic.end(), bytes.begin());
+template <std::size_t kSize>
+bool begins_with(ByteView bytes, const std::array<std::uint8_t, kSize>& magic) {
+  return bytes.size() > kSize && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
 /// stb decodes more formats than glTF allows; only these two reach it.
