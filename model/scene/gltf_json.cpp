@@ -156,7 +156,7 @@ std::string without_tag(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-/// Before it is parsed: each level takes some eighty bytes for the one that opens it.
+/// To be called before it is parsed, which takes some eighty bytes for each bracket that opens.
 void check_depth(std::string_view text) {
   int depth = 0;
   bool in_string = false;
