@@ -17,8 +17,8 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "config/config_text.h"
-#include "config/read_config.h"
 #include "tracefile/ray_lookup.h"
+#include "tracefile/recorded_config.h"
 #include "tracefile/scene_hash.h"
 #include "tracefile/trace_metadata.h"
 #include "tracefile/traced_shading.h"
@@ -35,9 +35,8 @@ bool shapes_rays(std::string_view key) {
 
 /// The recorded configuration with what the user sets over it, if the trace allows that.
 template <typename Forbidden>
-Config replay_config(const ReplayOptions& options, const TraceMetadata& metadata,
+Config replay_config(const ReplayOptions& options, const BaseConfig& base,
                      const char* recorded_things, const Forbidden& is_forbidden) {
-  const BaseConfig base{metadata.config, options.trace.string() + ", recorded configuration"};
   const Config recorded = resolve_config_over(base, std::nullopt, {});
   Config config = resolve_config_over(base, options.config, options.settings);
   for (const std::string& key : changed_keys(recorded, config)) {
@@ -89,7 +88,8 @@ std::filesystem::path scene_file(const ReplayOptions& options, const TraceMetada
 }
 
 int replay_rays(const ReplayOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
-  const Config config = replay_config(options, metadata, "rays", shapes_rays);
+  const Config config =
+      replay_config(options, recorded_config(reader, metadata), "rays", shapes_rays);
   if (options.mode) {
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: holds rays, which are simulated in time; --mode is for a trace of "
@@ -171,7 +171,8 @@ int replay_command(const ReplayOptions& options) {
                             options.trace.string()));
   }
   const auto is_forbidden = [](std::string_view key) { return !shapes_memory_only(key); };
-  const Config config = replay_config(options, metadata, "accesses", is_forbidden);
+  const Config config =
+      replay_config(options, recorded_config(reader, metadata), "accesses", is_forbidden);
   check_observation(options.watch, config);
   return replay_memory(options, config, reader, metadata);
 }

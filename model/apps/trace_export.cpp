@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "config/read_config.h"
 #include "system/dram_requests.h"
+#include "tracefile/recorded_config.h"
 
 namespace sheaf {
 namespace {
@@ -114,8 +114,7 @@ void put_line(const LineAccess& access, Format format, std::string& text) {
 }  // namespace
 
 void export_trace(const TraceOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
-  const BaseConfig base{metadata.config, options.trace.string() + ", recorded configuration"};
-  const Config config = resolve_config_over(base, std::nullopt, {});
+  const Config config = resolve_config_over(recorded_config(reader, metadata), std::nullopt, {});
   std::error_code ignored;
   if (fs::equivalent(options.out, options.trace, ignored)) {
     throw Error(ExitCode::kUsage,

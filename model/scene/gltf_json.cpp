@@ -44,10 +44,9 @@ struct Place {
   const Place* parent;
   std::string_view key;
   std::size_t index;  ///< in an array, where there is no key
-  int depth;
 
-  [[nodiscard]] Place member(std::string_view name) const { return {this, name, 0, depth + 1}; }
-  [[nodiscard]] Place element(std::size_t i) const { return {this, {}, i, depth + 1}; }
+  [[nodiscard]] Place member(std::string_view name) const { return {this, name, 0}; }
+  [[nodiscard]] Place element(std::size_t i) const { return {this, {}, i}; }
   [[nodiscard]] std::string pointer() const {
     if (parent == nullptr) return {};
     return fmt::format("{}/{}", parent->pointer(),
@@ -82,12 +81,9 @@ void clean_number(json& number, const Place& place) {
   }
 }
 
-/// Checks a value and all in it, and drops from it what nobody reads. Recursion is as deep as
-/// kMaxJsonDepth at most.
+/// Checks a value and all in it, and drops from it what nobody reads. Recursion is no deeper than
+/// check_depth allows.
 void clean(json& value, const Place& place) {
-  if (place.depth > kMaxJsonDepth) {
-    refuse("", fmt::format("JSON nested deeper than {} levels", kMaxJsonDepth));
-  }
   if (value.is_object()) {
     for (auto member = value.begin(); member != value.end();) {
       const Place own = place.member(member.key());
@@ -160,6 +156,27 @@ std::string without_tag(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
+/// To be called before it is parsed, which takes some eighty bytes for each bracket that opens.
+void check_depth(std::string_view text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMaxJsonDepth) {
+        refuse("", fmt::format("JSON nested deeper than {} levels", kMaxJsonDepth));
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
 }  // namespace
 
 json parse_gltf_json(std::string_view text) {
@@ -167,6 +184,7 @@ json parse_gltf_json(std::string_view text) {
     refuse("", fmt::format("{} bytes of JSON are more than the {} allowed; save as .glb",
                            text.size(), kMaxJsonBytes));
   }
+  check_depth(text);
   json root;
   try {
     root = json::parse(text.begin(), text.end());
@@ -174,7 +192,7 @@ json parse_gltf_json(std::string_view text) {
     refuse("", "broken JSON: " + without_tag(e.what()));
   }
   if (!root.is_object()) refuse("", "not a glTF file: the JSON is not an object");
-  clean(root, {nullptr, {}, 0, 0});
+  clean(root, {nullptr, {}, 0});
   check_version(root);
   check_required_extensions(root);
   check_lengths(root);

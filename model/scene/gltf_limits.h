@@ -23,5 +23,8 @@ inline constexpr std::uint64_t kMaxZeroElements = std::uint64_t{1} << 24;
 inline constexpr std::uint32_t kMaxImageSide = 16384;
 /// Texels of all images together, 4 bytes each.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 28;
+/// Scans of a JPEG, for each of these texels on average. Each scan visits every texel, which ten
+/// bytes of a file get for nothing; progressive files have about ten.
+inline constexpr std::uint64_t kMaxScansPerTexel = 16;
 
 }  // namespace sheaf::gltf

@@ -26,18 +26,45 @@ Texture::Wrap to_wrap(int mode, const std::string& place) {
   }
 }
 
-/// stb decodes more formats than glTF allows; only these two reach it.
-bool is_png_or_jpeg(ByteView bytes) {
-  constexpr std::array<std::uint8_t, 4> kPng{0x89, 'P', 'N', 'G'};
-  constexpr std::array<std::uint8_t, 3> kJpeg{0xFF, 0xD8, 0xFF};
-  const auto begins_with = [&](const auto& magic) {
-    return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-  };
-  return begins_with(kPng) || begins_with(kJpeg);
+template <std::size_t kSize>
+bool begins_with(ByteView bytes, const std::array<std::uint8_t, kSize>& magic) {
+  return bytes.size() > kSize && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-void decode(ByteView bytes, const std::string& place, std::uint64_t& remaining, Texture& texture) {
-  if (!is_png_or_jpeg(bytes) || bytes.size() > std::numeric_limits<int>::max()) {
+/// stb decodes more formats than glTF allows; only these two reach it.
+bool is_png(ByteView bytes) {
+  return begins_with(bytes, std::array<std::uint8_t, 4>{0x89, 'P', 'N', 'G'});
+}
+bool is_jpeg(ByteView bytes) {
+  return begins_with(bytes, std::array<std::uint8_t, 3>{0xFF, 0xD8, 0xFF});
+}
+
+/// Every place that could be the beginning of a scan, so that none can be hidden.
+std::uint64_t num_scans(ByteView jpeg) {
+  constexpr std::array<std::uint8_t, 2> kStartOfScan{0xFF, 0xDA};
+  std::uint64_t count = 0;
+  auto at = jpeg.begin();
+  while ((at = std::search(at, jpeg.end(), kStartOfScan.begin(), kStartOfScan.end())) !=
+         jpeg.end()) {
+    ++count;
+    ++at;
+  }
+  return count;
+}
+
+void take_scans(std::uint64_t scans, std::uint64_t texels, const std::string& place,
+                std::uint64_t& remaining) {
+  // At most 2^31 scans of 2^28 texels.
+  if (scans * texels > remaining) {
+    refuse(place, fmt::format("{} scans of {} pixels exceed the limit of {} scans of {} pixels in "
+                              "all images; save it without progression",
+                              scans, texels, kMaxScansPerTexel, kMaxTexels));
+  }
+  remaining -= scans * texels;
+}
+
+void decode(ByteView bytes, const std::string& place, ImageAllowance& remaining, Texture& texture) {
+  if (!(is_png(bytes) || is_jpeg(bytes)) || bytes.size() > std::numeric_limits<int>::max()) {
     refuse(place, "is neither PNG nor JPEG; convert it");
   }
   const auto length = static_cast<int>(bytes.size());
@@ -52,12 +79,13 @@ void decode(ByteView bytes, const std::string& place, std::uint64_t& remaining, 
   texture.width = static_cast<std::uint32_t>(width);
   texture.height = static_cast<std::uint32_t>(height);
   const std::uint64_t texels = std::uint64_t{texture.width} * texture.height;
-  if (std::max(texture.width, texture.height) > kMaxImageSide || texels > remaining) {
+  if (std::max(texture.width, texture.height) > kMaxImageSide || texels > remaining.texels) {
     refuse(place, fmt::format("{} x {} pixels exceed the limits of {} a side and {} in all images; "
                               "scale it down",
                               width, height, kMaxImageSide, kMaxTexels));
   }
-  remaining -= texels;
+  remaining.texels -= texels;
+  if (is_jpeg(bytes)) take_scans(num_scans(bytes), texels, place, remaining.scanned_texels);
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4), &stbi_image_free);
   if (!pixels) refuse(place, fmt::format("broken image: {}", stbi_failure_reason()));

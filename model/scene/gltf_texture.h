@@ -13,13 +13,21 @@
 
 namespace sheaf::gltf {
 
+/// What the images that are still to come may ask for.
+struct ImageAllowance {
+  std::uint64_t texels;
+  std::uint64_t scanned_texels;  ///< of all scans
+};
+
 /// Decodes the images of the textures that materials ask for, once for each image and sampler.
 class TextureReader {
  public:
   /// All images together may have `max_texels`.
   TextureReader(Document& document, std::vector<Texture>& textures,
                 std::uint64_t max_texels = kMaxTexels)
-      : document_(document), textures_(textures), remaining_(max_texels) {}
+      : document_(document),
+        textures_(textures),
+        remaining_{max_texels, kMaxScansPerTexel * max_texels} {}
 
   /// Index into the scene's textures of glTF texture `index`, or kNoTexture, with a warning, for a
   /// texture that has no image of the core format.
@@ -34,7 +42,7 @@ class TextureReader {
   Document& document_;
   std::vector<Texture>& textures_;
   std::map<Key, std::int32_t> known_;
-  std::uint64_t remaining_;  ///< texels that may still be decoded
+  ImageAllowance remaining_;
 };
 
 }  // namespace sheaf::gltf

@@ -34,9 +34,23 @@ std::string read_all(int file) {
   return text;
 }
 
+void limit(decltype(RLIMIT_CPU) resource, std::uint64_t most) {
+  const rlimit both{most, most};
+  setrlimit(resource, &both);
+}
+
+void apply(const ChildLimits& limits) {
+  std::signal(SIGALRM, SIG_DFL);
+  alarm(limits.wall_seconds);
+  limit(RLIMIT_CPU, limits.cpu_seconds);
+#ifndef SHEAF_SANITIZED
+  limit(RLIMIT_AS, limits.address_bytes);
+#endif
+}
+
 }  // namespace
 
-std::string run_in_child(const std::function<std::string()>& job, unsigned seconds) {
+std::string run_in_child(const std::function<std::string()>& job, const ChildLimits& limits) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe to another process");
   std::fflush(nullptr);  // or the child would print again what waits to be printed
@@ -45,8 +59,7 @@ std::string run_in_child(const std::function<std::string()>& job, unsigned secon
   if (child == 0) {
     close(ends[0]);
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-    const rlimit limit{seconds, seconds};
-    setrlimit(RLIMIT_CPU, &limit);
+    apply(limits);
     write_all(ends[1], job());
     _exit(0);
   }

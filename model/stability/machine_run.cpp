@@ -19,7 +19,8 @@
 namespace sheaf::stability {
 namespace {
 
-constexpr unsigned kSecondsToHang = 60;
+/// After which a machine hangs: the second also where it waits, or others keep it waiting.
+constexpr ChildLimits kLimits{.cpu_seconds = 60, .wall_seconds = 1200};
 
 Texture checks() {
   Texture texture;
@@ -163,7 +164,7 @@ std::vector<std::string> MachineScene::all(const std::vector<std::string>& setti
 
 MachineRun MachineScene::run(const std::vector<std::string>& settings) const {
   const Config config = resolve_config({}, all(settings));
-  const std::string answer = run_in_child([&] { return run_here(config, scene_); }, kSecondsToHang);
+  const std::string answer = run_in_child([&] { return run_here(config, scene_); }, kLimits);
   return run_of(answer);
 }
 

@@ -36,8 +36,14 @@ MemoryStream::MemoryStream(TraceReader& reader, const MemoryLayout& layout, std:
 }
 
 bool MemoryStream::load() {
-  if (next_frame_ == frames_.size()) return false;
-  const TraceFrame& frame = frames_[next_frame_++];
+  do {
+    if (next_frame_ == frames_.size()) return false;
+    load_frame(frames_[next_frame_++]);
+  } while (block_.records.empty());
+  return true;
+}
+
+void MemoryStream::load_frame(const TraceFrame& frame) {
   reader_.read(frame, raw_);
   block_.clear();
   try {
@@ -49,7 +55,6 @@ bool MemoryStream::load() {
   first_ = first_of_key(frame.key);
   next_record_ = 0;
   next_chain_ = 0;
-  return !block_.records.empty() || load();
 }
 
 void MemoryStream::count_bytes(const TraceFrame& frame) {

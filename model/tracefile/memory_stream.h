@@ -38,7 +38,9 @@ class MemoryStream {
   }
 
  private:
+  /// The next frame that is not empty; false if there is none.
   bool load();
+  void load_frame(const TraceFrame& frame);
   void count_bytes(const TraceFrame& frame);
 
   TraceReader& reader_;

@@ -4,37 +4,37 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 namespace sheaf {
 namespace {
 
 constexpr std::uint64_t kAccessesBetweenStops = std::uint64_t{1} << 14;
 
-/// Takes lines together, so that those to come can be fetched ahead.
+/// Takes lines together, so that those to come can be fetched ahead. Its sets are made when they
+/// are needed: a trace may name many caches that nothing uses.
 class CurveBuilder {
  public:
-  CurveBuilder(std::string name, const CurveShape& shape)
-      : name_(std::move(name)), shape_(shape), distances_(shape.sets) {
-    pending_.reserve(kTogether);
-  }
+  CurveBuilder(std::string name, const CurveShape& shape) : name_(std::move(name)), shape_(shape) {}
   void add(std::uint64_t line) {
     pending_.push_back(line);
     if (pending_.size() == kTogether) take();
   }
   [[nodiscard]] MissCurveOfStream finish() {
-    take();
+    if (!pending_.empty()) take();
     return {name_, shape_.line, shape_.sets, curve_.num_accesses(), curve_.points()};
   }
 
  private:
   static constexpr std::size_t kTogether = 1024;
   void take() {
-    distances_.access_all(pending_, [&](std::uint32_t distance) { curve_.add(distance); });
+    if (!distances_) distances_.emplace(shape_.sets);
+    distances_->access_all(pending_, [&](std::uint32_t distance) { curve_.add(distance); });
     pending_.clear();
   }
   std::string name_;
   CurveShape shape_;
-  StackDistances distances_;
+  std::optional<StackDistances> distances_;
   MissCurve curve_;
   std::vector<std::uint64_t> pending_;
 };

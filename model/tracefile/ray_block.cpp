@@ -16,6 +16,7 @@ constexpr std::uint8_t kHitFlag = 4;
 constexpr std::uint8_t kContributesFlag = 8;
 
 constexpr std::size_t kNumWords = 10;
+constexpr std::size_t kLeastChildBytes = 1 + 4 * kNumWords;  ///< with a slot of one byte
 
 /// The i-th word of a spawned ray: origin, direction, t_max, weight.
 const float& word_of(const SpawnedRay& ray, std::size_t i) {
@@ -115,7 +116,8 @@ void decode_ray_block(ByteSpan raw, std::uint64_t number, std::uint32_t num_rays
     ray.contributes = (flags[i] & kContributesFlag) != 0;
     packet += static_cast<std::uint64_t>(unzigzag(packets[i]));
     ray.packet = packet;
-    if (counts[i] > raw.size() - num_children) throw BadColumn("a ray has too many children");
+    if (counts[i] > raw.size() / kLeastChildBytes - num_children)
+      throw BadColumn("a ray has too many children");
     ray.first_child = first_child + static_cast<std::uint32_t>(num_children);
     ray.num_children = static_cast<std::uint32_t>(counts[i]);
     num_children += counts[i];

@@ -14,6 +14,12 @@ namespace sheaf {
 namespace {
 
 constexpr std::size_t kMaxHeldBytes = std::size_t{64} << 20;
+// Of one block, unpacked: a hundred thousand rays for each of its pixels.
+constexpr std::size_t kMaxBlockBytes = std::size_t{1} << 30;
+// Slots that are looked at to find free ones. Identities are hashes, of which each needs about one
+// and a half in a table that is half full; a few rays may need what they like.
+constexpr std::size_t kProbesPerRay = 16;
+constexpr std::size_t kProbesPerBlock = 4096;
 
 }  // namespace
 
@@ -67,33 +73,52 @@ void RayLookup::make_room() {
   }
 }
 
+// A frame is looked at before the next one is unpacked, so that it ends with the first one that
+// repeats what was there.
 std::unique_ptr<RayLookup::Block> RayLookup::load(std::uint64_t number) {
   auto loaded = std::make_unique<Block>();
   loaded->number = number;
-  for (const TraceFrame& frame : std::ranges::equal_range(frames_, number, {}, &TraceFrame::key)) {
+  const auto frames = std::ranges::equal_range(frames_, number, {}, &TraceFrame::key);
+  std::size_t num_rays = 0;
+  for (const TraceFrame& frame : frames) {
+    num_rays += frame.num_records;
+    if (num_rays > kMaxBlockBytes / sizeof(ShadedRay)) refuse_size(frame);
+  }
+  loaded->content.rays.reserve(num_rays);
+  loaded->slots.assign(std::bit_ceil(2 * num_rays + 2), 0);
+  for (const TraceFrame& frame : frames) {
     reader_.read(frame, raw_);
     try {
       decode_ray_block(raw_, number, frame.num_records, grid_, loaded->content);
     } catch (const BadColumn& problem) {
       reader_.refuse(frame, problem.what());
     }
+    if (loaded->content.num_bytes() > kMaxBlockBytes) refuse_size(frame);
+    index(*loaded, frame);
   }
-  index(*loaded);
   return loaded;
 }
 
-void RayLookup::index(Block& block) const {
+void RayLookup::refuse_size(const TraceFrame& frame) const {
+  reader_.refuse(frame, "its block of the picture grows beyond what can be held");
+}
+
+// The rays of a frame that has just been unpacked.
+void RayLookup::index(Block& block, const TraceFrame& frame) const {
   const std::vector<ShadedRay>& rays = block.content.rays;
-  block.slots.assign(std::bit_ceil(2 * rays.size() + 2), 0);
   const std::size_t mask = block.slots.size() - 1;
-  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+  for (std::size_t i = rays.size() - frame.num_records; i < rays.size(); ++i) {
     std::size_t slot = rays[i].tag.id & mask;
     for (; block.slots[slot] != 0; slot = (slot + 1) & mask) {
       if (rays[block.slots[slot] - 1].tag.id == rays[i].tag.id) {
         refuse(rays[i].tag, "it is in the trace twice");
       }
+      ++block.num_probes;
     }
-    block.slots[slot] = i + 1;
+    block.slots[slot] = static_cast<std::uint32_t>(i + 1);
+    if (block.num_probes > kProbesPerRay * (i + 1) + kProbesPerBlock) {
+      reader_.refuse(frame, "its rays have identities that Sheaf does not give");
+    }
   }
 }
 

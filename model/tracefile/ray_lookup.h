@@ -25,7 +25,7 @@ class RayLookup {
     std::span<const SpawnedRay> children;
   };
   /// What came of a ray that is no shadow ray; valid until the next call. Throws Error(kTrace) if
-  /// it is not there or its block is damaged.
+  /// it is not there or its block is damaged, repeats a ray or takes more than 1 GiB.
   [[nodiscard]] Found find(const RayTag& tag);
 
   /// Throws Error(kTrace): something is wrong with one ray.
@@ -36,6 +36,7 @@ class RayLookup {
     std::uint64_t number = 0;
     RayBlock content;
     std::vector<std::uint32_t> slots;  ///< hash table: number of a ray + 1, 0 = empty
+    std::size_t num_probes = 0;        ///< slots that were taken when one was sought
     std::uint64_t last_use = 0;
     [[nodiscard]] std::size_t num_bytes() const {
       return content.num_bytes() + slots.size() * sizeof(slots[0]);
@@ -43,7 +44,8 @@ class RayLookup {
   };
   Block& block(std::uint64_t number);
   std::unique_ptr<Block> load(std::uint64_t number);
-  void index(Block& block) const;
+  void index(Block& block, const TraceFrame& frame) const;
+  [[noreturn]] void refuse_size(const TraceFrame& frame) const;
   void make_room();
 
   TraceReader& reader_;

@@ -85,8 +85,10 @@ void TracedShading::check_child(const RayTag& parent, const SpawnedRay& child) c
   if (child.slot < 2 && parent.depth >= recursion_level_) {
     trace_.refuse(parent, "it spawned a ray beyond the recursion level");
   }
-  if (!is_finite(child.origin) || !is_finite(child.direction) || !is_finite(child.weight) ||
-      child.direction == Vec3(0.0F) || !(child.t_max >= 0.0F)) {
+  // A sum of light that takes something away is none that a film adds up.
+  const bool takes_away = glm::any(glm::lessThan(child.weight, Vec3(0.0F)));
+  if (takes_away || !is_finite(child.origin) || !is_finite(child.direction) ||
+      !is_finite(child.weight) || child.direction == Vec3(0.0F) || !(child.t_max >= 0.0F)) {
     trace_.refuse(parent, "it spawned a ray that is none");
   }
 }

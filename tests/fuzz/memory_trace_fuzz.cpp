@@ -5,11 +5,11 @@
 // records, the stream, and the content of one frame.
 #include <algorithm>
 
-#include "config/read_config.h"
 #include "fuzz_input.h"
 #include "system/dram_requests.h"
 #include "tracefile/memory_stream.h"
 #include "tracefile/miss_curves.h"
+#include "tracefile/recorded_config.h"
 #include "tracefile/trace_metadata.h"
 #include "tracefile/trace_reader.h"
 #include "tracefile/trace_writer.h"
@@ -53,7 +53,7 @@ void filter_requests(const std::filesystem::path& path) {
   sheaf::TraceReader reader(path);
   const sheaf::TraceMetadata metadata = sheaf::read_metadata(reader);
   const sheaf::Config config =
-      sheaf::resolve_config_over({metadata.config, "recorded configuration"}, std::nullopt, {});
+      sheaf::resolve_config_over(sheaf::recorded_config(reader, metadata), std::nullopt, {});
   sheaf::MemoryAccesses accesses(reader, metadata.memory);
   sheaf::DramRequests requests(config, metadata.memory, [](const sheaf::LineAccess& access) {
     if (access.bytes == 0) std::abort();

@@ -75,11 +75,48 @@ MUTATIONS = [
         ("model/scene/gltf_accessor.cpp",
          "if (offset > bytes.size() || needed > bytes.size() - offset) {",
          "if (offset > bytes.size() + needed) {")]),
+    Mutation("views end within their buffer", "input/beyond the file", [
+        ("model/scene/gltf_document.cpp",
+         "view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset",
+         "false")]),
+    Mutation("buffers end within their file", "input/beyond the file", [
+        ("model/scene/gltf_document.cpp", "if (length > bytes.size()) {", "if (false) {")]),
+    Mutation("indices are of vertices", "input/beyond the file", [
+        ("model/scene/gltf_primitive.cpp", "if (order[i] >= num_vertices) {", "if (false) {")]),
+    Mutation("sparse values end within their view", "input/beyond the file", [
+        ("model/scene/gltf_accessor.cpp", "count * element, place + \"/values\"",
+         "0 * element, place + \"/values\"")]),
     Mutation("paths lead nowhere up", "input/beyond the folder", [
         ("model/scene/gltf_uri.cpp", "relative.is_absolute() || climbs ||",
-         "(relative.is_absolute() && !climbs) ||"),
+         "relative.is_absolute() || (climbs && false) ||")]),
+    Mutation("paths are relative", "input/beyond the folder", [
+        ("model/scene/gltf_uri.cpp", "relative.is_absolute() || climbs ||", "climbs ||")]),
+    Mutation("links lead nowhere else", "input/beyond the folder", [
         ("model/scene/gltf_uri.cpp", "if (error || end != folder_.end()) {",
-         "if (error || end == folder_.begin()) {")]),
+         "if (error || (end != folder_.end() && false)) {")]),
+    Mutation("vertices that no view backs have a limit", "input/beyond memory", [
+        ("model/scene/gltf_accessor.cpp", "if (count_ > kMaxZeroElements) {", "if (false) {")]),
+    Mutation("files have a limit", "input/beyond memory", [
+        ("model/scene/gltf_file.cpp", "if (size > limit) refuse", "if (false) refuse")]),
+    Mutation("sides of an image have a limit", "input/beyond memory", [
+        ("model/scene/gltf_texture.cpp",
+         "std::max(texture.width, texture.height) > kMaxImageSide || texels", "texels")]),
+    Mutation("texels of all images have a limit", "input/beyond memory", [
+        ("model/scene/gltf_texture.cpp", "|| texels > remaining.texels", "")]),
+    Mutation("scans of all images have a limit", "input/beyond memory", [
+        ("model/scene/gltf_texture.cpp", "if (scans * texels > remaining) {", "if (false) {")]),
+    Mutation("triangles have a limit", "input/beyond memory", [
+        ("model/scene/gltf_plan.cpp", "if (plan_.triangles + product > kMaxTriangles) {",
+         "if (false) {")]),
+    Mutation("instances have a limit", "input/beyond memory", [
+        ("model/scene/gltf_nodes.cpp", "if (num_instances_ > kMaxTriangles) {", "if (false) {")]),
+    Mutation("a node is reached once", "input/beyond memory", [
+        ("model/scene/gltf_nodes.cpp", "if (reached_[next.node]) {", "if (false) {")]),
+    Mutation("entries have a limit", "input/beyond memory", [
+        ("model/scene/gltf_json.cpp", "value.is_array() && value.size() > kMaxEntries",
+         "value.is_array() && false")]),
+    Mutation("levels of JSON have a limit", "input/beyond memory", [
+        ("model/scene/gltf_json.cpp", "if (++depth > kMaxJsonDepth) {", "if (++depth < 0) {")]),
     Mutation("time that SystemC cannot say is refused", "machines/slow clock", [
         ("model/channels/clock_domain.h", "if (now > last_cycle_) refuse_time(now);", "")]),
 ]

@@ -106,6 +106,35 @@ TEST_F(HostileTrace, IsRefusedByTheFirstByteTooMany) {
   expect_refused(run_sheaf({"trace", "verify", trace_}), "touch more than there can be");
 }
 
+TEST_F(HostileTrace, OfManyCachesThatNothingUsesHasSmallCurves) {
+  write(1, 8, 4, 0, [](json& all) {
+    json& streams = all["memory"]["streams"];
+    for (std::size_t i = 1; i < 256; ++i) {
+      json unit = streams[0];
+      unit["name"] = "unit" + std::to_string(i);
+      streams.push_back(unit);
+    }
+  });
+  const CommandResult result = run({"curve", trace_, "--sets", "65536"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_LT(result.peak_bytes, 200 * kMiB);
+}
+
+TEST_F(HostileTrace, OfManyEmptyFramesIsReadToItsEnd) {
+  write(1, 8, 4);
+  TraceReader reader(trace_);
+  TraceWriter writer(trace_, reader.identity());
+  const ByteVector empty = encode_memory_block({}, {});
+  for (int i = 0; i < 100'000; ++i) writer.add(memory_key(0, 0), 0, [empty] { return empty; });
+  ByteVector raw;
+  reader.read(reader.frames()[0], raw);
+  writer.add(memory_key(0, 0), reader.frames()[0].num_records, [raw] { return raw; });
+  writer.finish(reader.metadata());
+  const CommandResult result = run_sheaf({"trace", "export", trace_, "--level", "units"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(std::ranges::count(result.out, '\n'), 4) << result.out;
+}
+
 TEST_F(HostileTrace, WhoseNumbersAreNoneIsRefused) {
   struct Forgery {
     const char* place;
@@ -124,6 +153,29 @@ TEST_F(HostileTrace, WhoseNumbersAreNoneIsRefused) {
   for (const Forgery& forgery : forgeries) {
     write(1, 8, 4, 0, [&](json& all) { all[json::json_pointer(forgery.place)] = forgery.value; });
     expect_refused(run_sheaf({"trace", "info", trace_}), forgery.why);
+  }
+}
+
+TEST_F(HostileTrace, WhoseCachesWouldTakeTerabytesIsRefused) {
+  const std::vector<std::string> forgeries[] = {
+      {"l2.capacity=1TiB", "l2.line=64"},
+      {"l2.capacity=1TiB", "l2.line=64", "l2.replacement=fifo"},
+      {"traversal_unit.count=64", "node_cache.capacity=1GiB", "node_cache.line=16"},
+      {"intersection_unit.count=64", "triangle_cache.capacity=128MiB", "triangle_cache.line=16"},
+      {"shader_unit.count=64", "attribute_cache.sets=1048576"},
+      {"shader_unit.count=64", "texture_cache.sets=1048576"},
+      {"film_cache.capacity=16GiB"}};
+  for (const std::vector<std::string>& settings : forgeries) {
+    write(1, 8, 4, 0, [&](json& all) {
+      all["config"] = config_toml(resolve_config({}, settings), Comments::kNone);
+    });
+    const std::vector<std::string> commands[] = {{"replay", trace_},
+                                                 {"trace", "export", trace_, "--level", "dram"}};
+    for (const std::vector<std::string>& command : commands) {
+      const CommandResult result = run(command);
+      expect_refused(result, "more than the 67108864 that a trace may ask for");
+      EXPECT_LT(result.peak_bytes, 200 * kMiB);
+    }
   }
 }
 

@@ -7,9 +7,17 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <functional>
+#include <limits>
+
 #include "support/scenes.h"
 #include "support/scratch_folder.h"
 #include "support/sheaf_command.h"
+#include "tracefile/ray_block.h"
+#include "tracefile/trace_metadata.h"
+#include "tracefile/trace_reader.h"
+#include "tracefile/trace_writer.h"
 
 namespace sheaf::test {
 namespace {
@@ -137,6 +145,48 @@ TEST_P(RayTrace, ThatDoesNotFitOnTheDiskEndsTheRunAndLeavesNoResult) {
   EXPECT_NE(result.err.find("rays.trace: the trace cannot be written"), std::string::npos)
       << result.err;
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "full"));
+}
+
+/// A copy of a trace, each of whose spawned rays has been changed.
+void forge(const std::filesystem::path& from, const std::filesystem::path& to,
+           const std::function<void(SpawnedRay&)>& change) {
+  TraceReader reader(from);
+  const TraceMetadata metadata = read_metadata(reader);
+  const BlockGrid grid(metadata.width, metadata.height);
+  TraceWriter writer(to, reader.identity());
+  for (const TraceFrame& frame : reader.frames()) {
+    ByteVector raw;
+    reader.read(frame, raw);
+    RayBlock block;
+    decode_ray_block(raw, frame.key, frame.num_records, grid, block);
+    std::ranges::for_each(block.children, change);
+    encode_ray_block(block, grid, raw);
+    writer.add(frame.key, frame.num_records, [raw] { return raw; });
+  }
+  writer.finish(reader.metadata());
+}
+
+TEST_P(RayTrace, WhoseSpawnedRaysAreNoneIsRefusedAsATrace) {
+  struct Forgery {
+    const char* what;
+    std::function<void(SpawnedRay&)> change;
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Forgery forgeries[] = {
+      {"a weight below zero", [](SpawnedRay& ray) { ray.weight.y = -1e-30F; }},
+      {"a weight that is no number", [=](SpawnedRay& ray) { ray.weight.z = nan; }},
+      {"no direction", [](SpawnedRay& ray) { ray.direction = Vec3(0.0F); }},
+      {"an origin that is no number", [=](SpawnedRay& ray) { ray.origin.x = nan; }},
+      {"an end before the beginning", [](SpawnedRay& ray) { ray.t_max = -1.0F; }}};
+  const std::filesystem::path forged = scratch_ / "forged.trace";
+  for (const Forgery& forgery : forgeries) {
+    forge(trace_, forged, forgery.change);
+    const CommandResult result = run_sheaf(
+        {"replay", forged.string(), "--quiet", "--out", (scratch_ / "replayed").string()});
+    EXPECT_EQ(result.exit_code, 6) << forgery.what;
+    EXPECT_NE(result.err.find("it spawned a ray that is none"), std::string::npos)
+        << forgery.what << ": " << result.err;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Committed, RayTrace, testing::Values("oldtree"),
