@@ -9,51 +9,11 @@
 #include <map>
 
 #include "stability/catalogue.h"
+#include "stability/extreme_meshes.h"
 #include "stability/mesh_scene.h"
 
 namespace sheaf::stability {
 namespace {
-
-/// A convex closed mesh around `centre`.
-struct ClosedMesh {
-  std::string name, extreme;
-  Mesh mesh;
-  Vec3 centre{0.0F};
-  float inner = 0.0F;  ///< origins inside lie this near to the centre
-  float outer = 0.0F;  ///< origins outside lie this far away
-  bool level = false;  ///< and at the height of the centre: the mesh reaches far up and down
-};
-
-ClosedMesh sphere(std::string name, std::string extreme, int rings, int sectors, float scale,
-                  float offset) {
-  ClosedMesh closed{std::move(name), std::move(extreme), bumpy_sphere(rings, sectors, 0.0F)};
-  closed.centre = scale * offset * Vec3(1.0F, -1.0F, 1.0F);
-  closed.mesh.transform(scale, closed.centre);
-  closed.inner = 0.4F * scale;
-  closed.outer = 3.0F * scale;
-  return closed;
-}
-
-std::vector<ClosedMesh> closed_meshes() {
-  std::vector<ClosedMesh> meshes;
-  meshes.push_back(sphere("sphere", "rays at edges and corners", 40, 60, 1.0F, 0.0F));
-  meshes.push_back(
-      sphere("sphere moved", "the same 10,000 radii from the origin", 30, 40, 1.0F, 1e4F));
-  meshes.push_back(sphere("tiny sphere", "the same scaled by 1e-6", 30, 40, 1e-6F, 0.0F));
-  meshes.push_back(sphere("huge sphere", "the same scaled by 1e6", 30, 40, 1e6F, 0.0F));
-  meshes.push_back(sphere("sphere of needles",
-                          "triangles 600 times as long as wide, all meeting "
-                          "at two poles",
-                          4, 5000, 1.0F, 0.0F));
-  meshes.push_back({"spindle", "needles 1,000,000 times as long as wide", spindle(64, 2e6F),
-                    Vec3(0.0F), 4.0F, 40.0F, true});
-  // The middle is a point of the grid, and so are most of the origins, by whole numbers.
-  meshes.push_back({"grid cube",
-                    "corners on split planes, rays along planes with zeros among "
-                    "their directions",
-                    grid_cube(8), Vec3(4.0F), 3.0F, 16.0F});
-  return meshes;
-}
 
 /// Sends packets at a closed mesh and counts the rays that get through to its other side.
 class LeakMeasurement {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "stability/catalogue.h"
@@ -16,6 +17,8 @@ namespace sheaf::stability {
 namespace {
 
 constexpr int kRays = 12000;
+/// No more than so many triangles are tested one by one: fewer rays for larger meshes.
+constexpr std::size_t kTests = 18'000'000;
 /// Of how many rays one is held against exact arithmetic on every triangle, which takes a while.
 constexpr int kExactEvery = 20;
 
@@ -111,10 +114,14 @@ class RayMeasurement {
 }  // namespace
 
 std::vector<StabilityCase> ray_cases() {
+  std::vector<RayScene> scenes = ray_scenes();
+  std::ranges::move(surface_ray_scenes(), std::back_inserter(scenes));
   std::vector<StabilityCase> cases;
-  for (const RayScene& scene : ray_scenes()) {
-    cases.push_back({"rays", scene.name, scene.extreme, [scene](const Effort& effort) {
-                       return RayMeasurement(scene).run(effort.trials(kRays));
+  for (const RayScene& scene : scenes) {
+    const auto affordable = static_cast<int>(kTests / scene.mesh.triangles.size());
+    const int num_rays = std::min(kRays, affordable);
+    cases.push_back({"rays", scene.name, scene.extreme, [scene, num_rays](const Effort& effort) {
+                       return RayMeasurement(scene).run(effort.trials(num_rays));
                      }});
   }
   return cases;
