@@ -28,11 +28,12 @@ const char* const kNoLoss =
 const char* const kSameSteps =
     "a lane is active where its ray alone would go: the planes' distances are the same numbers";
 const char* const kSixUlps =
-    "6 = sqrt(2) (2 + 4), rounded up: roundings of (a_k - o_k) - s (a_z - o_z) and of s, after "
-    "Woop, "
-    "Benthin and Wald 2013, section 4.2";
+    "corners move by u (2 |k| + 4 |z|) along either axis k, at most 4u (|k| + |z|): roundings of "
+    "(a_k - o_k) - s (a_z - o_z) and of s, after Woop, Benthin and Wald 2013, section 4.2; along "
+    "both, sqrt(2) times that, 5.66, rounded up for terms in u^2";
 const char* const kTBound =
-    "weights off by the moved corners, and 16 roundings of u in t (double_hit.cpp)";
+    "the slope of t times how far corners move, 4 roundings in each weight and 9 in t "
+    "(double_hit.cpp)";
 const char* const kMonotone =
     "a difference of two rounded products never has the wrong sign, and products of floats are "
     "exact in doubles (watertight.h)";
