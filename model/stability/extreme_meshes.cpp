@@ -18,8 +18,8 @@ ClosedMesh sphere(std::string name, std::string extreme, int rings, int sectors,
   return closed;
 }
 
-Mesh moved_sphere(float scale, float offset) {
-  Mesh mesh = bumpy_sphere(40, 60, 0.0F);
+Mesh moved_sphere(float scale, float offset, int rings = 40, int sectors = 60) {
+  Mesh mesh = bumpy_sphere(rings, sectors, 0.0F);
   mesh.transform(scale, scale * offset * Vec3(1.0F, -1.0F, 1.0F));
   return mesh;
 }
@@ -45,6 +45,11 @@ std::vector<ClosedMesh> closed_meshes() {
   meshes.push_back(sphere("sphere", "rays at edges and corners", 40, 60, 1.0F, 0.0F));
   meshes.push_back(
       sphere("sphere moved", "the same 10,000 radii from the origin", 30, 40, 1.0F, 1e4F));
+  meshes.push_back(
+      sphere("sphere moved far", "the same 100,000 radii from the origin", 30, 40, 1.0F, 1e5F));
+  meshes.push_back(sphere("sphere moved farthest",
+                          "1,000,000 radii from the origin: four bits are left", 8, 12, 1.0F,
+                          1e6F));
   meshes.push_back(sphere("tiny sphere", "the same scaled by 1e-6", 30, 40, 1e-6F, 0.0F));
   meshes.push_back(sphere("huge sphere", "the same scaled by 1e6", 30, 40, 1e6F, 0.0F));
   meshes.push_back(sphere("sphere of needles",
@@ -78,6 +83,9 @@ std::vector<SurfaceMesh> surface_meshes() {
   std::vector<SurfaceMesh> sources;
   sources.push_back({"sphere", "angles down to 1e-6", moved_sphere(1.0F, 0.0F), true});
   sources.push_back({"moved sphere", "10,000 radii off", moved_sphere(1.0F, 1e4F), true});
+  sources.push_back({"sphere moved far", "100,000 radii off", moved_sphere(1.0F, 1e5F), true});
+  sources.push_back({"sphere moved farthest", "1,000,000 radii off: four bits are left",
+                     moved_sphere(1.0F, 1e6F, 8, 12), true});
   sources.push_back({"tiny sphere", "scaled by 1e-6", moved_sphere(1e-6F, 0.0F), true});
   sources.push_back({"huge sphere", "scaled by 1e6", moved_sphere(1e6F, 0.0F), true});
   sources.push_back({"room on zero", "walls where coordinates are zero", grid_cube(4), true});

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 
 #include "stability/catalogue.h"
@@ -27,14 +26,15 @@ class LeakMeasurement {
     for (int i = 0; i < num_rays / (2 * kLanes); ++i) {
       const Vec3 inner = inside(random);
       send(
-          inner, [&] { return on_edge(random); }, true, from_inside_);
+          inner, [&] { return on_edge(random); }, kInside, from_inside_);
       if (i % 5 == 0) {
         send(
-            inner, [&] { return inner + random_direction(random); }, false, random_);
+            inner, [&] { return Vec3d(inner) + Vec3d(random_direction(random)); }, kInside,
+            random_);
       }
       if (i % 4 == 0) find_facing(outer = outside(random));
       send(
-          outer, [&] { return facing_edge(random); }, true, from_outside_);
+          outer, [&] { return facing_edge(random); }, kOutside, from_outside_);
     }
     const char* const why =
         "triangles that share an edge compute the same edge function for it (watertight.h)";
@@ -62,12 +62,13 @@ class LeakMeasurement {
     if (source_.level) direction = glm::normalize(Vec3(direction.x, 0.0F, direction.z));
     return source_.centre + source_.outer * direction;
   }
-  /// On an edge; one time in three a corner.
-  Vec3 on_edge(Random& random) const {
+  /// On an edge; one time in three a corner. In doubles, for far from the origin floats are so far
+  /// apart that hardly any lies on an edge.
+  Vec3d on_edge(Random& random) const {
     const auto& t = scene_.mesh.triangles[random.below(scene_.mesh.triangles.size())];
-    const Vec3& a = scene_.mesh.positions[t[random.below(3)]];
-    const Vec3& b = scene_.mesh.positions[t[random.below(3)]];
-    return a + random.uniform() * (b - a);
+    const Vec3d a(scene_.mesh.positions[t[random.below(3)]]);
+    const Vec3d b(scene_.mesh.positions[t[random.below(3)]]);
+    return a + double{random.uniform()} * (b - a);
   }
   /// Corners whose triangles all turn towards the origin, which then sees no edge between two of
   /// them as part of the outline.
@@ -75,20 +76,20 @@ class LeakMeasurement {
     const double margin = 0.1 * double{source_.outer};
     std::fill(faces_.begin(), faces_.end(), true);
     for (std::size_t i = 0; i < scene_.records.size(); ++i) {
-      if (glm::dot(outward_[i], Vec3d(origin) - Vec3d(scene_.records[i].a)) > margin) continue;
+      if (height_over(static_cast<std::uint32_t>(i), origin) > margin) continue;
       for (const std::uint32_t corner : welded_[i]) faces_[corner] = false;
     }
   }
   /// On an edge that faces the origin of find_facing(), corners included.
-  Vec3 facing_edge(Random& random) const {
+  Vec3d facing_edge(Random& random) const {
     for (;;) {
       const std::size_t i = random.below(scene_.records.size());
       const std::size_t p = random.below(3);
       const std::size_t q = random.below(3);
       if (!faces_[welded_[i][p]] || !faces_[welded_[i][q]]) continue;
-      const Vec3& from = scene_.mesh.positions[scene_.mesh.triangles[i][p]];
-      const Vec3& to = scene_.mesh.positions[scene_.mesh.triangles[i][q]];
-      return from + random.uniform() * (to - from);
+      const Vec3d from(scene_.mesh.positions[scene_.mesh.triangles[i][p]]);
+      const Vec3d to(scene_.mesh.positions[scene_.mesh.triangles[i][q]]);
+      return from + double{random.uniform()} * (to - from);
     }
   }
 
@@ -110,29 +111,31 @@ class LeakMeasurement {
     faces_.resize(numbers.size());
   }
 
-  /// Sends a packet from one origin. A ray leaks if it meets nothing, or, aimed at a point of the
-  /// mesh, something clearly behind that: the other side of the mesh.
-  void send(const Vec3& origin, const auto& target, bool aimed, Failures& leaks) {
-    std::array<float, kLanes> farthest{};
+  /// Sends a packet from one origin. A ray leaks if it meets nothing, or the mesh from the side
+  /// that is turned away from the origin: from outside, the wall behind.
+  void send(const Vec3& origin, const auto& target, double outside, Failures& leaks) {
     RayPacket packet;
     packet.clear(kLanes);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const Vec3 to = target() - origin;
-      farthest[static_cast<std::size_t>(lane)] =
-          aimed ? 1.02F * glm::length(to) : std::numeric_limits<float>::infinity();
-      packet.put(lane, make_ray(origin, glm::normalize(to)));
+      packet.put(lane, make_ray(origin, Vec3(glm::normalize(target() - Vec3d(origin)))));
     }
     const auto scheme = kTraversalSchemes[num_packets_++ % kTraversalSchemes.size()];
     TraceCounts counts;
     trace_packet(scheme, scene_.tree, scene_.records, packet, nullptr, nullptr, counts);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const bool met = packet.hit_triangle[lane] != kNoHit;
-      leaks.check(met && packet.hit_t[lane] <= farthest[lane],
-                  [&] { return describe(packet.get(static_cast<int>(lane))); });
+      const std::uint32_t met = packet.hit_triangle[lane];
+      const bool right = met != kNoHit && outside * height_over(met, origin) > 0.0;
+      leaks.check(right, [&] { return describe(packet.get(static_cast<int>(lane))); });
     }
+  }
+  /// Over the plane of a triangle; negative inside the mesh.
+  double height_over(std::uint32_t triangle, const Vec3& point) const {
+    return glm::dot(outward_[triangle], Vec3d(point) - Vec3d(scene_.records[triangle].a));
   }
 
   static constexpr int kLanes = 16;
+  static constexpr double kInside = -1.0;
+  static constexpr double kOutside = 1.0;
   const ClosedMesh& source_;
   const MeshScene scene_;
   std::vector<Vec3d> outward_;
