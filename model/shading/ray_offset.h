@@ -23,6 +23,7 @@ inline constexpr float kOffsetUlps = 256.0F;  ///< above: a step in units of las
 struct OffsetScale {
   float unit = 1.0F;   ///< of the fixed step and of the range in which it is taken
   float least = 0.0F;  ///< along the normal, whatever the coordinates
+  float far = 0.0F;    ///< instead of all others, along the normal, if it is not 0
 };
 
 /// The unit of scenes whose largest coordinate is less than 1/4: the power of two below that
@@ -40,8 +41,22 @@ struct OffsetScale {
   return reach > 64.0F ? 0x1p-20F * reach : 0.0F;
 }
 
+/// The step in scenes whose largest coordinate is more than 256 times their extent, else 0; the
+/// paper's 256 ulps would reach across them. There 4 ulps of the largest coordinate are enough:
+/// along a unit normal, rounding the position and the moved origin to coordinates takes half an ulp
+/// an axis each, sqrt(3) ulps in all, and t is off by less than one. Decision 0107 has the numbers.
+[[nodiscard]] inline float far_offset(const Box& bounds) {
+  const Vec3 reach = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+  const float largest = std::max({reach.x, reach.y, reach.z});
+  const Vec3 extent = bounds.extent();
+  const bool is_far = largest > 256.0F * std::max({extent.x, extent.y, extent.z});
+  if (!is_far || !std::isfinite(largest)) return 0.0F;
+  return std::ldexp(1.0F, std::ilogb(largest) - 23 + 2);
+}
+
 /// One coordinate of offset_origin().
 [[nodiscard]] inline float offset_coordinate(float p, float n, const OffsetScale& scale = {}) {
+  if (scale.far > 0.0F) return p + scale.far * n;
   if (std::fabs(p) < kOffsetNearZero * scale.unit) {
     return p + std::max(kOffsetFixedStep * scale.unit, scale.least) * n;
   }

@@ -13,15 +13,28 @@
 namespace sheaf {
 namespace {
 
-/// The unit and the least step of the offset, by the conventions of OffsetScale (ray_offset.h).
-double unit_of(const Scene& scene) {
+/// The unit, the far and the least step of the offset, by the conventions of OffsetScale
+/// (ray_offset.h).
+double largest_coordinate(const Scene& scene) {
   double largest = 0.0;
   for (const Vec3& p : {scene.bounds.lo, scene.bounds.hi}) {
     for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::fabs(double{p[axis]}));
   }
+  return largest;
+}
+double unit_of(const Scene& scene) {
+  const double largest = largest_coordinate(scene);
   if (largest >= 0.25) return 1.0;
   return largest > 0.0 ? std::exp2(std::max(std::floor(std::log2(largest)), -100.0))
                        : std::exp2(-100.0);
+}
+double far_step(const Scene& scene) {
+  double extent = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    extent = std::max(extent, double{scene.bounds.hi[axis]} - double{scene.bounds.lo[axis]});
+  }
+  const double largest = largest_coordinate(scene);
+  return largest > 256.0 * extent ? 4.0 * std::ldexp(1.0, std::ilogb(largest) - 23) : 0.0;
 }
 double least_step(const Scene& scene, std::uint32_t triangle) {
   const auto& corners = scene.triangles[triangle];
@@ -35,10 +48,14 @@ double least_step(const Scene& scene, std::uint32_t triangle) {
 }
 
 /// The surface's point moved along n by as much as Wächter and Binder (Ray Tracing Gems 2019,
-/// chapter 6) would move it if it were a float, or by the least step.
+/// chapter 6) would move it if it were a float, or by the least step, or in far scenes by theirs.
 Vec3d moved_off(const ReferenceSurface& s, const Vec3d& n) {
   Vec3d moved = s.position;
   for (int axis = 0; axis < 3; ++axis) {
+    if (s.far_offset > 0.0) {
+      moved[axis] += s.far_offset * n[axis];
+      continue;
+    }
     const double p = s.position[axis];
     double step = n[axis] * s.offset_unit / 65536.0;
     if (std::fabs(p) >= s.offset_unit / 32.0) {
@@ -116,7 +133,11 @@ Illumination illuminate(const Light& light, const Vec3d& point) {
 class Tracer {
  public:
   Tracer(const Scene& scene, const KdTree& tree, const ReferenceTracer::Options& options)
-      : scene_(scene), tree_(tree), options_(options), offset_unit_(unit_of(scene)) {}
+      : scene_(scene),
+        tree_(tree),
+        options_(options),
+        offset_unit_(unit_of(scene)),
+        far_offset_(far_step(scene)) {}
 
   [[nodiscard]] Vec3d trace(const ReferenceRay& ray, const Vec3d& weight,
                             std::uint32_t depth) const {
@@ -126,6 +147,7 @@ class Tracer {
     }
     ReferenceSurface s = reference_surface(scene_, ray, *hit);
     s.offset_unit = offset_unit_;
+    s.far_offset = far_offset_;
     s.least_offset = least_step(scene_, hit->triangle);
     if (s.material->unlit) {
       return weight * s.base_color;
@@ -201,6 +223,7 @@ class Tracer {
   const KdTree& tree_;
   const ReferenceTracer::Options& options_;
   double offset_unit_;
+  double far_offset_;
 };
 
 }  // namespace

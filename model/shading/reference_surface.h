@@ -18,6 +18,7 @@ struct ReferenceSurface {
   Vec3d emission{0.0};
   double offset_unit = 1.0;
   double least_offset = 0.0;
+  double far_offset = 0.0;
 };
 
 [[nodiscard]] ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray,

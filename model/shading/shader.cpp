@@ -74,7 +74,10 @@ void check_texture(const Scene& scene, std::int32_t index, const std::string& ma
 }  // namespace
 
 Shader::Shader(const Scene& scene, const Options& options)
-    : scene_(scene), options_(options), offset_unit_(offset_unit(scene.bounds)) {
+    : scene_(scene),
+      options_(options),
+      offset_unit_(offset_unit(scene.bounds)),
+      far_offset_(far_offset(scene.bounds)) {
   for (const Material& material : scene.materials) {
     check_texture(scene, material.base_color_texture, material.name);
     check_texture(scene, material.emission_texture, material.name);
@@ -95,7 +98,7 @@ Surface Shader::surface(const Ray& ray, const Hit& hit) const {
   // travelled.
   s.position = a + (hit.u * e1 + hit.v * e2);
   const Vec3 reach = glm::max(glm::abs(e1), glm::abs(e2));
-  s.offset = {offset_unit_, least_offset(std::max({reach.x, reach.y, reach.z}))};
+  s.offset = {offset_unit_, least_offset(std::max({reach.x, reach.y, reach.z})), far_offset_};
   s.geometric_normal = face_normal(e1, e2, -ray.direction);
   s.entering = glm::dot(s.geometric_normal, ray.direction) <= 0.0F;
   s.geometric_normal = s.entering ? s.geometric_normal : -s.geometric_normal;

@@ -90,6 +90,7 @@ class Shader {
   const Scene& scene_;
   Options options_;
   float offset_unit_;
+  float far_offset_;
 };
 
 }  // namespace sheaf

@@ -13,9 +13,12 @@ struct DoubleHit {
   double margin = 0.0;
   double t = 0.0;
   /// How far single precision may move the corners as the ray sees them: 6u × (distance of the
-  /// farthest corner along the two axes that the shear mixes); see set_up_planes().
+  /// farthest corner along the two axes that the shear mixes). Along either axis k of the two it is
+  /// u (2 |k| + 4 |z|), see set_up_planes(), and so at most 4u (|k| + |z|); along both, sqrt(2)
+  /// times that, which is 5.66u. The rest covers terms in u².
   double margin_error = 0.0;
-  /// How far that, and the rounding of the weights, may move t.
+  /// How far that, and the rounding of the weights and of t, may move t; infinite for triangles
+  /// seen edge-on.
   double t_error = 0.0;
 };
 [[nodiscard]] DoubleHit hit_in_doubles(const TriangleRecord& triangle, const Ray& ray);
@@ -23,6 +26,8 @@ struct DoubleHit {
 /// Whether `hit` is an answer that rounding can explain: the triangle is hit, or missed by less
 /// than the error, t is right within the error, and no triangle is certainly hit before it.
 /// Ordinary rays have errors of a few ulps, and then this says that the hit is the right one.
-[[nodiscard]] bool explains(const MeshScene& scene, const Ray& ray, const Hit& hit);
+/// `t_slack` is how much farther t may be off if another arithmetic computed it.
+[[nodiscard]] bool explains(const MeshScene& scene, const Ray& ray, const Hit& hit,
+                            double t_slack = 0.0);
 
 }  // namespace sheaf::stability

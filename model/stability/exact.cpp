@@ -111,6 +111,13 @@ ExactHit hit_exactly(const TriangleRecord& triangle, const Ray& ray) {
   return hit;
 }
 
+bool are_coplanar(const TriangleRecord& a, const TriangleRecord& b) {
+  const Vector origin = whole(a.a);
+  const Vector normal = cross(whole(a.b) - origin, whole(a.c) - origin);
+  const auto in_plane = [&](const Vec3& p) { return dot(normal, whole(p) - origin) == 0; };
+  return in_plane(b.a) && in_plane(b.b) && in_plane(b.c);
+}
+
 double sum_exactly(std::span<const float> terms) {
   Integer sum = 0;
   for (const float term : terms) sum += whole(term);

@@ -21,6 +21,9 @@ struct ExactHit {
 };
 [[nodiscard]] ExactHit hit_exactly(const TriangleRecord& triangle, const Ray& ray);
 
+/// Whether all corners of two triangles lie in one plane. True if `a` has no area.
+[[nodiscard]] bool are_coplanar(const TriangleRecord& a, const TriangleRecord& b);
+
 /// Whether the sheared triangle contains the z axis, edges and corners included: what hit_sheared()
 /// decides. False for triangles without area in that projection.
 [[nodiscard]] bool contains_axis(const ShearedTriangle& triangle);

@@ -5,55 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 
 #include "stability/catalogue.h"
+#include "stability/extreme_meshes.h"
 #include "stability/mesh_scene.h"
 
 namespace sheaf::stability {
 namespace {
-
-/// A convex closed mesh around `centre`.
-struct ClosedMesh {
-  std::string name, extreme;
-  Mesh mesh;
-  Vec3 centre{0.0F};
-  float inner = 0.0F;  ///< origins inside lie this near to the centre
-  float outer = 0.0F;  ///< origins outside lie this far away
-  bool level = false;  ///< and at the height of the centre: the mesh reaches far up and down
-};
-
-ClosedMesh sphere(std::string name, std::string extreme, int rings, int sectors, float scale,
-                  float offset) {
-  ClosedMesh closed{std::move(name), std::move(extreme), bumpy_sphere(rings, sectors, 0.0F)};
-  closed.centre = scale * offset * Vec3(1.0F, -1.0F, 1.0F);
-  closed.mesh.transform(scale, closed.centre);
-  closed.inner = 0.4F * scale;
-  closed.outer = 3.0F * scale;
-  return closed;
-}
-
-std::vector<ClosedMesh> closed_meshes() {
-  std::vector<ClosedMesh> meshes;
-  meshes.push_back(sphere("sphere", "rays at edges and corners", 40, 60, 1.0F, 0.0F));
-  meshes.push_back(
-      sphere("sphere moved", "the same 10,000 radii from the origin", 30, 40, 1.0F, 1e4F));
-  meshes.push_back(sphere("tiny sphere", "the same scaled by 1e-6", 30, 40, 1e-6F, 0.0F));
-  meshes.push_back(sphere("huge sphere", "the same scaled by 1e6", 30, 40, 1e6F, 0.0F));
-  meshes.push_back(sphere("sphere of needles",
-                          "triangles 600 times as long as wide, all meeting "
-                          "at two poles",
-                          4, 5000, 1.0F, 0.0F));
-  meshes.push_back({"spindle", "needles 1,000,000 times as long as wide", spindle(64, 2e6F),
-                    Vec3(0.0F), 4.0F, 40.0F, true});
-  // The middle is a point of the grid, and so are most of the origins, by whole numbers.
-  meshes.push_back({"grid cube",
-                    "corners on split planes, rays along planes with zeros among "
-                    "their directions",
-                    grid_cube(8), Vec3(4.0F), 3.0F, 16.0F});
-  return meshes;
-}
 
 /// Sends packets at a closed mesh and counts the rays that get through to its other side.
 class LeakMeasurement {
@@ -67,14 +26,15 @@ class LeakMeasurement {
     for (int i = 0; i < num_rays / (2 * kLanes); ++i) {
       const Vec3 inner = inside(random);
       send(
-          inner, [&] { return on_edge(random); }, true, from_inside_);
+          inner, [&] { return on_edge(random); }, kInside, from_inside_);
       if (i % 5 == 0) {
         send(
-            inner, [&] { return inner + random_direction(random); }, false, random_);
+            inner, [&] { return Vec3d(inner) + Vec3d(random_direction(random)); }, kInside,
+            random_);
       }
       if (i % 4 == 0) find_facing(outer = outside(random));
       send(
-          outer, [&] { return facing_edge(random); }, true, from_outside_);
+          outer, [&] { return facing_edge(random); }, kOutside, from_outside_);
     }
     const char* const why =
         "triangles that share an edge compute the same edge function for it (watertight.h)";
@@ -102,12 +62,13 @@ class LeakMeasurement {
     if (source_.level) direction = glm::normalize(Vec3(direction.x, 0.0F, direction.z));
     return source_.centre + source_.outer * direction;
   }
-  /// On an edge; one time in three a corner.
-  Vec3 on_edge(Random& random) const {
+  /// On an edge; one time in three a corner. In doubles, for far from the origin floats are so far
+  /// apart that hardly any lies on an edge.
+  Vec3d on_edge(Random& random) const {
     const auto& t = scene_.mesh.triangles[random.below(scene_.mesh.triangles.size())];
-    const Vec3& a = scene_.mesh.positions[t[random.below(3)]];
-    const Vec3& b = scene_.mesh.positions[t[random.below(3)]];
-    return a + random.uniform() * (b - a);
+    const Vec3d a(scene_.mesh.positions[t[random.below(3)]]);
+    const Vec3d b(scene_.mesh.positions[t[random.below(3)]]);
+    return a + double{random.uniform()} * (b - a);
   }
   /// Corners whose triangles all turn towards the origin, which then sees no edge between two of
   /// them as part of the outline.
@@ -115,20 +76,20 @@ class LeakMeasurement {
     const double margin = 0.1 * double{source_.outer};
     std::fill(faces_.begin(), faces_.end(), true);
     for (std::size_t i = 0; i < scene_.records.size(); ++i) {
-      if (glm::dot(outward_[i], Vec3d(origin) - Vec3d(scene_.records[i].a)) > margin) continue;
+      if (height_over(static_cast<std::uint32_t>(i), origin) > margin) continue;
       for (const std::uint32_t corner : welded_[i]) faces_[corner] = false;
     }
   }
   /// On an edge that faces the origin of find_facing(), corners included.
-  Vec3 facing_edge(Random& random) const {
+  Vec3d facing_edge(Random& random) const {
     for (;;) {
       const std::size_t i = random.below(scene_.records.size());
       const std::size_t p = random.below(3);
       const std::size_t q = random.below(3);
       if (!faces_[welded_[i][p]] || !faces_[welded_[i][q]]) continue;
-      const Vec3& from = scene_.mesh.positions[scene_.mesh.triangles[i][p]];
-      const Vec3& to = scene_.mesh.positions[scene_.mesh.triangles[i][q]];
-      return from + random.uniform() * (to - from);
+      const Vec3d from(scene_.mesh.positions[scene_.mesh.triangles[i][p]]);
+      const Vec3d to(scene_.mesh.positions[scene_.mesh.triangles[i][q]]);
+      return from + double{random.uniform()} * (to - from);
     }
   }
 
@@ -150,29 +111,31 @@ class LeakMeasurement {
     faces_.resize(numbers.size());
   }
 
-  /// Sends a packet from one origin. A ray leaks if it meets nothing, or, aimed at a point of the
-  /// mesh, something clearly behind that: the other side of the mesh.
-  void send(const Vec3& origin, const auto& target, bool aimed, Failures& leaks) {
-    std::array<float, kLanes> farthest{};
+  /// Sends a packet from one origin. A ray leaks if it meets nothing, or the mesh from the side
+  /// that is turned away from the origin: from outside, the wall behind.
+  void send(const Vec3& origin, const auto& target, double outside, Failures& leaks) {
     RayPacket packet;
     packet.clear(kLanes);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const Vec3 to = target() - origin;
-      farthest[static_cast<std::size_t>(lane)] =
-          aimed ? 1.02F * glm::length(to) : std::numeric_limits<float>::infinity();
-      packet.put(lane, make_ray(origin, glm::normalize(to)));
+      packet.put(lane, make_ray(origin, Vec3(glm::normalize(target() - Vec3d(origin)))));
     }
     const auto scheme = kTraversalSchemes[num_packets_++ % kTraversalSchemes.size()];
     TraceCounts counts;
     trace_packet(scheme, scene_.tree, scene_.records, packet, nullptr, nullptr, counts);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const bool met = packet.hit_triangle[lane] != kNoHit;
-      leaks.check(met && packet.hit_t[lane] <= farthest[lane],
-                  [&] { return describe(packet.get(static_cast<int>(lane))); });
+      const std::uint32_t met = packet.hit_triangle[lane];
+      const bool right = met != kNoHit && outside * height_over(met, origin) > 0.0;
+      leaks.check(right, [&] { return describe(packet.get(static_cast<int>(lane))); });
     }
+  }
+  /// Over the plane of a triangle; negative inside the mesh.
+  double height_over(std::uint32_t triangle, const Vec3& point) const {
+    return glm::dot(outward_[triangle], Vec3d(point) - Vec3d(scene_.records[triangle].a));
   }
 
   static constexpr int kLanes = 16;
+  static constexpr double kInside = -1.0;
+  static constexpr double kOutside = 1.0;
   const ClosedMesh& source_;
   const MeshScene scene_;
   std::vector<Vec3d> outward_;

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "stability/extreme_meshes.h"
 
 namespace sheaf::stability {
 namespace {
@@ -159,6 +162,22 @@ std::vector<RayScene> ray_scenes() {
       {"teapot in a stadium", "0.1 units of detail amid 10,000 units",
        teapot_in_stadium(0.1F, 1e4F), across_the_stadium},
   };
+}
+
+std::vector<RayScene> surface_ray_scenes() {
+  std::vector<RayScene> scenes;
+  for (ClosedMesh& closed : closed_meshes()) {
+    Mesh mesh = closed.mesh;
+    scenes.push_back({"at edges of " + closed.name, closed.extreme, std::move(mesh),
+                      [closed = std::move(closed)](const MeshScene& scene, Random& random) {
+                        return ray_at_edge(closed, scene, random);
+                      }});
+  }
+  for (SurfaceMesh& surface : surface_meshes()) {
+    scenes.push_back(
+        {"grazing " + surface.name, surface.extreme, std::move(surface.mesh), grazing_ray});
+  }
+  return scenes;
 }
 
 }  // namespace sheaf::stability

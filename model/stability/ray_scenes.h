@@ -19,5 +19,8 @@ struct RayScene {
   std::function<Ray(const MeshScene&, Random&)> ray;
 };
 [[nodiscard]] std::vector<RayScene> ray_scenes();
+/// The meshes of extreme_meshes.h: rays through the edges of those that nothing may leak through,
+/// and rays that graze those which rays leave from.
+[[nodiscard]] std::vector<RayScene> surface_ray_scenes();
 
 }  // namespace sheaf::stability

@@ -45,10 +45,27 @@ inline KdBuildOptions any_tree() {
   return options;
 }
 
+/// Along one axis or nearly: the other components are zeros of either sign, denormal or tiny.
+inline Vec3 any_odd_direction() {
+  Vec3 direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    direction[axis] =
+        *rc::gen::element(0.0F, -0.0F, 1e-45F, -1e-45F, 1e-40F, -1e-40F, 1e-30F, -1e-7F, 1e-7F);
+  }
+  direction[*rc::gen::inRange(0, 3)] = *rc::gen::element(1.0F, -1.0F);
+  return direction;
+}
+
+/// Between two points, or odd; in one of three cases it ends, often at the distance of a point.
 inline Ray any_ray() {
   const Vec3 from = any_point();
   const Vec3 to = any_point();
-  return make_ray(from, from == to ? Vec3(0.0F, 0.0F, 1.0F) : glm::normalize(to - from));
+  const bool odd = from == to || *rc::gen::inRange(0, 3) == 0;
+  Ray ray = make_ray(from, odd ? any_odd_direction() : glm::normalize(to - from));
+  if (*rc::gen::inRange(0, 3) == 0) {
+    ray.t_max = *rc::gen::element(0.0F, 1e-45F, 0.25F, 0.5F, 1.0F, glm::length(to - from));
+  }
+  return ray;
 }
 
 /// Every mixture of mirror, glass and lamp, with none to two lights.
@@ -82,8 +99,9 @@ struct AnySettings {
   std::vector<std::string> all;
 };
 
-/// Settings of a machine: numbers of units, their speed, queues and the ray cache.
-inline std::vector<std::string> any_machine() {
+/// Settings of a machine but for flow control: numbers of units, their speed, queues, both caches
+/// of rays and the choices of what goes first.
+inline AnySettings any_machine_but_flow() {
   AnySettings settings;
   for (const std::string unit : {"traversal_unit", "intersection_unit", "shader_unit"}) {
     settings.add(unit + ".count", 1, 8);
@@ -97,8 +115,28 @@ inline std::vector<std::string> any_machine() {
   settings.add("flow.tile_size", 8, 64);
   settings.add("link.latency", 1, 100);
   settings.add("link.depth", 1, 100);
-  settings.choose("ray_cache.heuristic", "none", "dir", "mdir(24)", "fastpos", "pos(1)", "opos");
+  settings.choose("ray_cache.heuristic", "none", "dir", "mdir(24)", "fastpos", "pos(1)", "opos",
+                  "ray5d(1)", "grid(2)");
+  settings.choose("ray_cache.victim", "fullest", "oldest", "lru");
+  settings.choose("ray_cache.order", "arrival", "breadth_first");
+  settings.choose("ray_cache.group_by_kind", "false", "true");
+  settings.choose("shader_cache.cells", 0, 0, 1, 16);
+  settings.choose("shader_cache.key", "material", "texture");
+  settings.choose("packet_arbiter.policy", "alternate", "primary_first", "secondary_first");
   settings.choose("traversal.scheme", "single", "masked", "interval", "interval_entry", "omni");
+  return settings;
+}
+
+inline std::vector<std::string> any_machine() {
+  AnySettings settings = any_machine_but_flow();
+  settings.choose("flow.control", "tile", "credits", "spill");
+  settings.choose("flow.spill_queue", 1, 16, 128);
+  return settings.all;
+}
+
+/// One whose memory traffic can be recorded, which that of spilled rays cannot.
+inline std::vector<std::string> any_recordable_machine() {
+  AnySettings settings = any_machine_but_flow();
   settings.choose("flow.control", "tile", "credits");
   return settings.all;
 }

@@ -118,7 +118,8 @@ void expect_alike(const nlohmann::json& live, const nlohmann::json& replay,
 // lack of room can make it ask later.
 RC_GTEST_PROP(MemoryReplaysProperty, OfRecordedCyclesAreTheRecordedRunIfNoAccessHadToWaitForRoom,
               ()) {
-  const Recording recording(any_machine() + any_lines() + any_roomy_caches() + any_shared_memory());
+  const Recording recording(any_recordable_machine() + any_lines() + any_roomy_caches() +
+                            any_shared_memory());
   expect_alike(recording.live, recording.replay("fixed"), is_of_length);
 }
 
@@ -151,7 +152,7 @@ std::map<std::string, std::uint64_t> accesses(const nlohmann::json& stats) {
 // level enters the next.
 RC_GTEST_PROP(MemoryReplaysProperty, OnAnyOtherMemoryMakeTheRecordedAccesses, ()) {
   const Arguments lines = any_lines();
-  const Recording recording(any_machine() + lines + any_caches() + any_shared_memory());
+  const Recording recording(any_recordable_machine() + lines + any_caches() + any_shared_memory());
   const auto expected = accesses(recording.live);
   RC_ASSERT(expected.size() > 5U);
   const Arguments other = lines + any_caches() + any_shared_memory();

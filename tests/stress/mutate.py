@@ -49,6 +49,8 @@ MUTATIONS = [
     Mutation("large triangles are left by a share of their size", "secondary/", [
         ("model/shading/ray_offset.h", "reach > 64.0F ? 0x1p-20F * reach : 0.0F",
          "0.0F * reach")]),
+    Mutation("far scenes are left by ulps of their largest coordinate", "secondary/sphere moved", [
+        ("model/shading/ray_offset.h", "largest > 256.0F * std::max(", "largest > 1e30F * std::max(")]),
     Mutation("small scenes have a small unit", "secondary/tiny", [
         ("model/shading/ray_offset.h", "if (!(largest < 0.25F)) return 1.0F;",
          "if (!(largest < 0.0F)) return 1.0F;")]),

@@ -16,6 +16,18 @@ RC_GTEST_PROP(SchemesProperty, AllFindWhatTestingEveryTriangleFinds, ()) {
   for (const auto scheme : kTraversalSchemes) RC_ASSERT(trace_one(scene, ray, scheme) == expected);
 }
 
+RC_GTEST_PROP(SchemesProperty, ShadowRaysAreBlockedByAnythingBeforeTheirEnd, ()) {
+  const Mesh mesh = any_mesh();
+  const MeshScene scene(mesh, any_tree());
+  Ray ray = any_ray();
+  const Hit closest = test_all(scene, ray);
+  const bool blocked = closest.triangle != kNoHit && closest.t < ray.t_max;
+  ray.tag.kind = RayKind::kShadow;
+  for (const auto scheme : kTraversalSchemes) {
+    RC_ASSERT((trace_one(scene, ray, scheme).triangle != kNoHit) == blocked);
+  }
+}
+
 RC_GTEST_PROP(SchemesProperty, ActiveLanesOfMaskedAreTheStepsOfSingleRays, ()) {
   const Mesh mesh = any_mesh();
   const MeshScene scene(mesh, any_tree());

@@ -56,6 +56,17 @@ TEST(RayOffset, StepsAtLeastAMillionthOfTrianglesLargerThan64Units) {
   EXPECT_EQ(offset_coordinate(1e6F, 1.0F, large), offset_coordinate(1e6F, 1.0F));
 }
 
+TEST(RayOffset, StepsFourUlpsAlongTheNormalInScenesFartherThan256TimesTheirExtent) {
+  EXPECT_EQ(far_offset({Vec3(1024.0F), Vec3(1028.0F)}), 4.0F * 0x1p-13F);
+  EXPECT_EQ(far_offset({Vec3(-1028.0F), Vec3(-1024.0F)}), 4.0F * 0x1p-13F);
+  EXPECT_EQ(far_offset({Vec3(1020.0F), Vec3(1024.0F)}), 0.0F);  // exactly 256 times
+  EXPECT_EQ(far_offset({Vec3(0.0F), Vec3(1e6F)}), 0.0F);
+  EXPECT_EQ(far_offset({}), 0.0F);
+  const OffsetScale far{.unit = 1.0F, .least = 0.0F, .far = 0.25F};
+  EXPECT_EQ(offset_coordinate(1e6F, 1.0F, far), 1e6F + 0.25F);
+  EXPECT_EQ(offset_coordinate(0.0F, -0.5F, far), -0.125F);
+}
+
 TEST(RayOffset, NeverLeavesTheFloats) {
   const float max = std::numeric_limits<float>::max();
   EXPECT_TRUE(std::isfinite(offset_coordinate(max, 1.0F)));

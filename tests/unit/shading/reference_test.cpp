@@ -158,6 +158,24 @@ TEST(ReferenceTracer, CountsReflectionsUpToTheRecursionLevel) {
   }
 }
 
+TEST(ReferenceTracer, StaysInAClosedMeshFarFromTheOrigin) {
+  Material m;
+  m.diffuse_weight = 0.0F;
+  m.mirror_weight = 1.0F;
+  SceneBuilder b;
+  b.material(m);
+  const Vec3 centre(1e5F, -1e5F, 1e5F);
+  b.sphere(centre, 1.0F, 12);
+  b.scene.background = Vec3(1.0F);
+  const KdTree tree = MiddleSplitTree(b.scene).tree;
+  const ReferenceTracer tracer(b.scene, tree, level(50));
+  Random random(8);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3d direction = glm::normalize(random_point(random));
+    EXPECT_EQ(tracer.radiance(Vec3d(centre), direction), Vec3d(0.0)) << i;
+  }
+}
+
 TEST(ReferenceTracer, MakesAGlassSphereVanishInAUniformWorld) {
   Material m;
   m.diffuse_weight = 0.0F;
