@@ -93,7 +93,7 @@ MUTATIONS = [
          "now + spec_.latency + transfer")]),
     Mutation("latencies of fixed memory are core cycles", "machines/clocks", [
         ("model/memory/fixed_dram.cpp", "std::max(now + spec_.latency, bus_free_)",
-         "std::max(now + spec_.latency * 1000 / domain_.period().value(), bus_free_)")]),
+         "std::max<Cycles>(now + spec_.latency * 1000 / domain_.period().value(), bus_free_)")]),
     Mutation("cycles are counted in 64 bits", "machines/long runs", [
         ("model/system/machine_report.cpp", "SystemValues::cycles, end_);",
          "SystemValues::cycles, static_cast<std::uint32_t>(end_));")]),
