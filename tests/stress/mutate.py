@@ -104,7 +104,7 @@ MUTATIONS = [
          "std::min(x, 65504.0F)")]),
     Mutation("a half stands for all that rounds to it", "precision/", [
         ("model/traversal/reduced_precision.cpp",
-         "return {stored - 0.5F * ulp, stored + 0.5F * ulp};", "return {stored, stored};")]),
+         "return {stored - 0.5F * ulp, stored + 0.5F * ulp};", "return {stored - 0.0F * ulp, stored + 0.0F * ulp};")]),
     Mutation("a number of few bits stands for its cell", "precision/", [
         ("model/traversal/reduced_precision.cpp",
          "return {std::min(end(cell), value), std::max(end(cell + 1.0), value)};",
