@@ -45,6 +45,15 @@ DramDevice device_of(const MemoryOptions& options) {
   return resolve_dram(dram);
 }
 
+void check_length(const StreamSpec& spec) {
+  if (spec.gap == 0 || spec.count - 1 <= kLastArrival / spec.gap) return;
+  throw Error(
+      ExitCode::kUsage,
+      fmt::format("--count {} --gap {}: the last access would arrive later than 2^52 memory "
+                  "cycles; choose fewer accesses or a smaller gap",
+                  spec.count, spec.gap));
+}
+
 // Asks often enough for a smooth line, seldom enough not to be felt.
 constexpr std::uint64_t kProgressEvery = 1 << 16;
 
@@ -120,6 +129,7 @@ int memory_command(const MemoryOptions& options) {
                           .seed = options.seed,
                           .write_share = options.write_share,
                           .bytes = options.bytes};
+    check_length(spec);
     AccessStream stream(spec, run.device());
     run_stream(spec, stream, run);
     source = fmt::format("{} stream, gap {}", name_of(kStreams, *options.generate), options.gap);

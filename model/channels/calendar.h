@@ -32,9 +32,13 @@ class Calendar {
     return num_agents_++;
   }
 
-  /// Makes `agent` due at `time`, or leaves it if it is due earlier already.
+  /// Makes `agent` due at `time`, or leaves it if it is due earlier already or the time is kNever.
+  /// Throws Error(kUsage) where time has ended.
   void schedule(std::size_t agent, Cycles time) {
-    if (time >= kEndOfTime) return;
+    if (time >= kEndOfTime) {
+      if (time != kNever) refuse_time(time);
+      return;
+    }
     const Key key = time << kAgentBits | agent;
     Key& due = groups_[agent / kGroup][agent % kGroup];
     if (key >= due) return;
@@ -66,6 +70,8 @@ class Calendar {
   }
 
  private:
+  [[noreturn]] static void refuse_time(Cycles time);
+
   using Key = std::uint64_t;
   static constexpr unsigned kAgentBits = 12;
   static_assert(kEndOfTime == Cycles{1} << (64U - kAgentBits));

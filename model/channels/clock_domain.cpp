@@ -37,7 +37,7 @@ void Lookahead::bind(const ClockDomain& domain, const std::vector<std::size_t>& 
 ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
     : sc_module(name),
       period_(period),
-      last_cycle_(std::numeric_limits<sc_dt::uint64>::max() / period.value()) {
+      last_cycle_(std::numeric_limits<sc_dt::uint64>::max() / period.value() - 1) {
   SC_HAS_PROCESS(ClockDomain);
   SC_METHOD(advance);
 }

@@ -93,9 +93,11 @@ class ClockDomain : public sc_core::sc_module {
   [[nodiscard]] const sc_core::sc_time& period() const { return period_; }
   /// The local time offset to pass along a TLM call made at cycle `now`.
   /// Throws Error(kUsage) beyond what SystemC's 64 bits can say.
-  [[nodiscard]] sc_core::sc_time offset(Cycles now) const {
-    if (now > last_cycle_) refuse_time(now);
-    return sc_core::sc_time::from_value((now - kernel_cycle_) * period_.value());
+  [[nodiscard]] sc_core::sc_time offset(Cycles now) const { return span(kernel_cycle_, now); }
+  /// What passes from one cycle to another that is no earlier; throws alike.
+  [[nodiscard]] sc_core::sc_time span(Cycles from, Cycles to) const {
+    if (to > last_cycle_) refuse_time(to);
+    return sc_core::sc_time::from_value((to - from) * period_.value());
   }
   /// The inverse: the cycle that lies `offset` after the time at which this domain was entered,
   /// rounded up.
@@ -135,7 +137,7 @@ class ClockDomain : public sc_core::sc_module {
   [[nodiscard]] Cycles next_foreign_cycle() const;
 
   const sc_core::sc_time period_;
-  const Cycles last_cycle_;  ///< that SystemC's time can reach
+  const Cycles last_cycle_;  ///< that SystemC's time can reach and be rounded up to
   Calendar calendar_;
   LinkMap links_;
   std::vector<Agent*> agents_;

@@ -7,13 +7,13 @@
 namespace sheaf {
 
 FixedDram::FixedDram(const sc_core::sc_module_name& name, const DramSpec& spec,
-                     const sc_core::sc_time& period)
-    : MainMemory(name), spec_(spec), period_(period) {}
+                     const ClockDomain& domain)
+    : MainMemory(name), spec_(spec), domain_(domain) {}
 
 tlm::tlm_sync_enum FixedDram::nb_transport_fw(tlm::tlm_generic_payload& payload,
                                               tlm::tlm_phase& phase, sc_core::sc_time& delay) {
   if (phase != tlm::BEGIN_REQ) return tlm::TLM_ACCEPTED;
-  const Cycles now = (sc_core::sc_time_stamp().value() + delay.value()) / period_.value();
+  const Cycles now = (sc_core::sc_time_stamp().value() + delay.value()) / domain_.period().value();
   const Bytes bytes = payload.get_data_length();
   const Cycles transfer = (bytes + spec_.bytes_per_cycle - 1) / spec_.bytes_per_cycle;
   const Cycles done = std::max(now + spec_.latency, bus_free_) + transfer;
@@ -29,7 +29,7 @@ tlm::tlm_sync_enum FixedDram::nb_transport_fw(tlm::tlm_generic_payload& payload,
     stats_.max_read_latency = std::max(stats_.max_read_latency, done - now);
   }
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  delay += period_ * static_cast<double>(done - now);
+  delay += domain_.span(now, done);
   return tlm::TLM_COMPLETED;
 }
 

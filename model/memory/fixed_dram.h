@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "channels/clock_domain.h"
 #include "config/config.h"
 #include "memory/main_memory.h"
 
@@ -11,10 +12,10 @@ namespace sheaf {
 /// the request, or when the bus is free, and occupies the bus for bytes / bytes_per_cycle, rounded
 /// up. Requests are taken in the order of the calls. Answers at once with TLM_COMPLETED and the
 /// response's time as the annotated delay, so it needs no SystemC process.
+/// Throws Error(kUsage) if that time lies beyond what SystemC can say.
 class FixedDram final : public MainMemory {
  public:
-  FixedDram(const sc_core::sc_module_name& name, const DramSpec& spec,
-            const sc_core::sc_time& period);
+  FixedDram(const sc_core::sc_module_name& name, const DramSpec& spec, const ClockDomain& domain);
 
   [[nodiscard]] DramStats stats(Cycles /*end*/) const override { return stats_; }
   void report_details(const std::string& /*path*/, Cycles /*end*/,
@@ -25,7 +26,7 @@ class FixedDram final : public MainMemory {
                                      sc_core::sc_time& delay) override;
 
   const DramSpec spec_;
-  const sc_core::sc_time period_;
+  const ClockDomain& domain_;
   Cycles bus_free_ = 0;
   DramStats stats_;
 };

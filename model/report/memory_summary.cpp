@@ -36,8 +36,7 @@ std::string latency_part(const TraceRun::Result& result, double ns) {
 
 std::string queue_part(const TraceRun::Result& result) {
   const std::uint64_t num = result.read_latency.num() + result.write_latency.num();
-  const double wait =
-      num == 0 ? 0 : static_cast<double>(result.sum_waits) / static_cast<double>(num);
+  const double wait = num == 0 ? 0 : result.sum_waits / static_cast<double>(num);
   return fmt::format("  wait for room in the queue: mean {:.2f}, longest {}\n", wait,
                      result.max_wait);
 }

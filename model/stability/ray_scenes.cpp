@@ -122,6 +122,21 @@ Ray from_far_away(const MeshScene& /*scene*/, Random& random) {
   return make_ray(random_point(random) - 1e8F * direction, direction);
 }
 
+/// At a corner, from so near to zero that the origin itself is off by next to nothing: what planes
+/// are moved by must make up for the rounding of the triangle test alone.
+Ray from_near_zero(const MeshScene& scene, Random& random) {
+  const TriangleRecord& t = scene.records[random.below(scene.records.size())];
+  const Vec3 origin = 1e-4F * random_point(random);
+  return make_ray(origin, glm::normalize(t.a - origin));
+}
+
+/// At a corner, from anywhere around.
+Ray at_a_corner(const MeshScene& scene, Random& random) {
+  const Ray start = random_ray(random, scene.tree.bounds);
+  const Vec3 to = scene.records[random.below(scene.records.size())].a - start.origin;
+  return to == Vec3(0.0F) ? start : make_ray(start.origin, glm::normalize(to));
+}
+
 /// From the stands of the stadium at the teapot.
 Ray across_the_stadium(const MeshScene& scene, Random& random) {
   const Vec3 extent = scene.tree.bounds.extent();
@@ -159,6 +174,10 @@ std::vector<RayScene> ray_scenes() {
        odd_direction},
       {"far origins", "origins 1e8 times the scene's size away", soup(300, 0.3F, 52),
        from_far_away},
+      {"origins near zero", "rays at corners, origins of a ten-thousandth of the scene's size",
+       soup(300, 0.3F, 53), from_near_zero},
+      {"corners moved by 1e4", "rays at corners, coordinates 10,000 times the scene's size",
+       moved(soup(300, 0.3F, 54), 1.0F, 1e4F), at_a_corner},
       {"teapot in a stadium", "0.1 units of detail amid 10,000 units",
        teapot_in_stadium(0.1F, 1e4F), across_the_stadium},
   };

@@ -25,7 +25,7 @@ MemorySystem::MemorySystem(const Config& config, ClockDomain& domain) : MemoryPa
                           .capacity = kNeverFull, .latency = link_.memory_latency, .interval = 0}));
   l2_ = std::make_unique<L2Cache>("l2", config.l2, config.crossbar, domain);
   if (config.dram.model == DramModel::kFixed) {
-    dram_ = std::make_unique<FixedDram>("dram", config.dram, domain.period());
+    dram_ = std::make_unique<FixedDram>("dram", config.dram, domain);
   } else {
     auto banked = std::make_unique<BankedDram>("dram", resolve_dram(config.dram),
                                                config.clock.frequency, domain);

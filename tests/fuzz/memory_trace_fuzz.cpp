@@ -1,30 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Sheaf authors
 // SPDX-License-Identifier: Apache-2.0
-// Memory traces. Checksums keep a fuzzer from metadata and frames, so that the input is these, and
-// a trace with right checksums is made of them: JSON up to the first zero byte, then the number of
-// records, the stream, and the content of one frame.
-#include <algorithm>
-
+// Memory traces with right checksums (sealed_trace.h); the byte for the key is the stream.
 #include "fuzz_input.h"
+#include "sealed_trace.h"
 #include "system/dram_requests.h"
 #include "tracefile/memory_stream.h"
 #include "tracefile/miss_curves.h"
 #include "tracefile/recorded_config.h"
 #include "tracefile/trace_metadata.h"
 #include "tracefile/trace_reader.h"
-#include "tracefile/trace_writer.h"
 
 namespace {
-
-void seal(const std::filesystem::path& path, const std::string& metadata, sheaf::ByteSpan frame) {
-  sheaf::TraceWriter writer(path, {sheaf::TraceKind::kMemory, {}, {}});
-  if (frame.size() > 3) {
-    const std::uint32_t num_records = frame[0] + 256U * frame[1];
-    const sheaf::ByteVector content(frame.begin() + 3, frame.end());
-    writer.add(sheaf::memory_key(frame[2], 0), num_records, [content] { return content; });
-  }
-  writer.finish(metadata);
-}
 
 void read_accesses(const std::filesystem::path& path) {
   sheaf::TraceReader reader(path);
@@ -72,12 +58,8 @@ extern "C" int sc_main(int /*argc*/, char** /*argv*/) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::uint8_t* const end = data + size;
-  const std::uint8_t* const zero = std::find(data, end, 0);
-  const std::string metadata(data, zero);
-  const std::uint8_t* const frame = zero == end ? end : zero + 1;
   sheaf::test::read_file("memory.trace", [&](const std::filesystem::path& path) {
-    seal(path, metadata, {frame, end});
+    sheaf::test::seal_trace(path, sheaf::TraceKind::kMemory, {data, size}, sheaf::memory_key);
     read_accesses(path);
     make_curves(path);
     filter_requests(path);

@@ -33,7 +33,8 @@ MUTATIONS = [
          "lanes = (lanes & ~unsure) | decide_in_double(s, unsure, hit);",
          "lanes = lanes & ~unsure & (decide_in_double(s, unsure, hit) | ~LaneMask{0});")]),
     Mutation("planes widened by the rounding of the test", "rays/", [
-        ("model/traversal/ray_setup-inl.h", "6.0F * kHalfUlp", "0.0F * kHalfUlp"),
+        ("model/traversal/ray_setup-inl.h", "6.0F * kHalfUlp", "0.0F * kHalfUlp")]),
+    Mutation("planes widened by the rounding of the moved origin", "rays/", [
         ("model/traversal/ray_setup-inl.h", "2.0F * kHalfUlp", "0.0F * kHalfUlp")]),
     Mutation("a plane at 0 * infinity counts for both sides", "rays/", [
         ("model/traversal/simd-inl.h", "return hn::Min(a, b);", "return hn::Min(b, a);"),
@@ -120,7 +121,33 @@ MUTATIONS = [
     Mutation("levels of JSON have a limit", "input/beyond memory", [
         ("model/scene/gltf_json.cpp", "if (++depth > kMaxJsonDepth) {", "if (++depth < 0) {")]),
     Mutation("time that SystemC cannot say is refused", "machines/slow clock", [
-        ("model/channels/clock_domain.h", "if (now > last_cycle_) refuse_time(now);", "")]),
+        ("model/channels/clock_domain.h", "if (to > last_cycle_) refuse_time(to);", "")]),
+    Mutation("who waits for room in a link is woken", "machines/stiff", [
+        ("model/units/primary_source.cpp", "out_packets->notify_when_free(inbox_);", "")]),
+    Mutation("packets wait for their credits", "machines/against clocked", [
+        ("model/units/primary_source.cpp", "if (!flow_.admits(reservation_, now)) {",
+         "if (!flow_.admits(reservation_, now) && false) {")]),
+    Mutation("the memory's bus is shared", "machines/against clocked", [
+        ("model/memory/fixed_dram.cpp", "std::max(now + spec_.latency, bus_free_) + transfer",
+         "now + spec_.latency + transfer")]),
+    Mutation("latencies of fixed memory are core cycles", "machines/clocks", [
+        ("model/memory/fixed_dram.cpp", "std::max(now + spec_.latency, bus_free_)",
+         "std::max<Cycles>(now + spec_.latency * 1000 / domain_.period().value(), bus_free_)")]),
+    Mutation("cycles are counted in 64 bits", "machines/long runs", [
+        ("model/system/machine_report.cpp", "SystemValues::cycles, end_);",
+         "SystemValues::cycles, static_cast<std::uint32_t>(end_));")]),
+    Mutation("weights are not cut off below", "light/powers", [
+        ("model/shading/saturate.h", "return x > 0.0F ?", "return x > 0x1p-24F ?")]),
+    Mutation("weights are not cut off above", "light/powers", [
+        ("model/shading/saturate.h", "std::min(x, std::numeric_limits<float>::max())",
+         "std::min(x, 65504.0F)")]),
+    Mutation("a half stands for all that rounds to it", "precision/", [
+        ("model/traversal/reduced_precision.cpp",
+         "return {stored - 0.5F * ulp, stored + 0.5F * ulp};", "return {stored - 0.0F * ulp, stored + 0.0F * ulp};")]),
+    Mutation("a number of few bits stands for its cell", "precision/", [
+        ("model/traversal/reduced_precision.cpp",
+         "return {std::min(end(cell), value), std::max(end(cell + 1.0), value)};",
+         "return {end(cell), end(cell)};")]),
 ]
 
 

@@ -77,6 +77,14 @@ TEST(TraceCommand, ExportsWhatOurOwnMemoryCanReadAgain) {
   EXPECT_NE(rays.err.find("record it with --record memory"), std::string::npos) << rays.err;
 }
 
+TEST(TraceCommand, StreamsWhoseTimesWouldWrapAreRefusedByName) {
+  const CommandResult result =
+      run_sheaf({"memory", "--generate", "random", "--count", "1099511627776", "--gap", "1000000"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--count 1099511627776 --gap 1000000: "), std::string::npos)
+      << result.err;
+}
+
 /// What comes out of a pipe until its writer closes it, or it is a pipe no longer.
 std::string read_pipe(const std::string& pipe, int file) {
   std::string text;

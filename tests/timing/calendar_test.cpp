@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "base/errors.h"
 #include "base/random.h"
 
 namespace sheaf {
@@ -51,6 +52,18 @@ TEST(Calendar, NeverComesForWhoIsDueNever) {
   EXPECT_EQ(calendar.next(), kNever);
   calendar.schedule(0, Calendar::kEndOfTime - 1);
   EXPECT_EQ(calendar.next(), Calendar::kEndOfTime - 1);
+}
+
+TEST(Calendar, RefusesWhatIsDueWhereTimeHasEnded) {
+  Calendar calendar = calendar_of(1);
+  try {
+    calendar.schedule(0, Calendar::kEndOfTime);
+    ADD_FAILURE() << "taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_TRUE(std::string(error.what()).starts_with("cycle 4503599627370496: ")) << error.what();
+  }
+  EXPECT_THROW(calendar.schedule(0, kNever - 1), Error);
 }
 
 TEST(Calendar, AgreesWithASearchOverAllAgents) {

@@ -64,6 +64,30 @@ TEST_F(Bench, LeavesTheKernelAtTheTimeOfTheLastEvent) {
   EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::sc_time(123, sc_core::SC_NS));
 }
 
+TEST_F(Bench, RefusesAWakeUpWhereTimeHasEnded) {
+  Actor actor(domain);
+  actor.at(Calendar::kEndOfTime - 1, [&] { actor.at(Calendar::kEndOfTime, [] {}); });
+  EXPECT_THROW(domain.run(), Error);
+  EXPECT_EQ(actor.wakes, (std::vector<Cycles>{Calendar::kEndOfTime - 1}));
+}
+
+TEST(SlowClock, ItsLastCycleIsSaidAndReadAlike) {
+  ClockDomain domain("domain", sc_core::sc_time(1.0, sc_core::SC_MS));
+  Cycles cycle = 0;
+  const auto refused = [&] {
+    try {
+      EXPECT_EQ(domain.cycle_at_kernel_offset(domain.offset(cycle)), cycle);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("clock.frequency")) << error.what();
+      return true;
+    }
+  };
+  cycle = 18'446'744'072;  // 2^64 ps are 18,446,744,073.7 ms
+  EXPECT_FALSE(refused());
+  for (cycle = 18'446'744'073; cycle < 18'446'744'080; ++cycle) EXPECT_TRUE(refused()) << cycle;
+}
+
 TEST_F(Bench, StopsBeforeItsEnd) {
   Actor actor(domain);
   actor.at(9, [] {});

@@ -88,7 +88,7 @@ struct L2Bench {
       l2->in_requests(*requests[0]);
       for (auto* link : responses) l2->out_responses(*link);
       if constexpr (kModel == DramModel::kFixed) {
-        dram = std::make_unique<FixedDram>("dram", dram_spec, one_nanosecond());
+        dram = std::make_unique<FixedDram>("dram", dram_spec, *bench.domain);
       } else {
         auto banked =
             std::make_unique<BankedDram>("dram", resolve_dram(dram_spec), kCoreHz, *bench.domain);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include "base/errors.h"
 #include "memory/fixed_dram.h"
 #include "memory/payload_pool.h"
 #include "timing/bench.h"
@@ -10,21 +11,24 @@
 namespace sheaf::test {
 namespace {
 
-struct DramTest : testing::Test {
-  static DramSpec spec() {
-    DramSpec spec;
-    spec.latency = 100;
-    spec.bytes_per_cycle = 16;
-    return spec;
-  }
-  FixedDram dram{"dram", spec(), one_nanosecond()};
+DramSpec spec_of(Cycles latency) {
+  DramSpec spec;
+  spec.latency = latency;
+  spec.bytes_per_cycle = 16;
+  return spec;
+}
+
+struct DramBench : testing::Test {
+  ClockDomain domain;
+  FixedDram dram;
   struct Requester : sc_core::sc_module {
     tlm_utils::simple_initiator_socket<Requester> socket{"socket"};
     explicit Requester(const sc_core::sc_module_name& name) : sc_module(name) {}
   } requester{"requester"};
   PayloadPool payloads{4096};
 
-  DramTest() {
+  DramBench(const sc_core::sc_time& period, Cycles latency)
+      : domain("domain", period), dram("dram", spec_of(latency), domain) {
     requester.socket.bind(dram.from_cache);
     sc_core::sc_start(sc_core::SC_ZERO_TIME);
   }
@@ -32,11 +36,21 @@ struct DramTest : testing::Test {
   Cycles done(Cycles now, std::uint32_t bytes, bool write = false) {
     tlm::tlm_generic_payload* payload = payloads.acquire(0, bytes, write);
     tlm::tlm_phase phase = tlm::BEGIN_REQ;
-    sc_core::sc_time delay = one_nanosecond() * static_cast<double>(now);
+    sc_core::sc_time delay = domain.span(0, now);
     EXPECT_EQ(requester.socket->nb_transport_fw(*payload, phase, delay), tlm::TLM_COMPLETED);
     payload->release();
-    return delay.value() / one_nanosecond().value();
+    EXPECT_EQ(delay.value() % domain.period().value(), 0U);
+    return delay.value() / domain.period().value();
   }
+};
+
+struct DramTest : DramBench {
+  DramTest() : DramBench(one_nanosecond(), 100) {}
+};
+
+// 1.001 kHz, where 10^7 cycles are more picoseconds than a double has digits.
+struct SlowClockDram : DramBench {
+  SlowClockDram() : DramBench(sc_core::sc_time::from_value(999'000'999), 10'000'000) {}
 };
 
 TEST_F(DramTest, UnloadedRequestTakesLatencyPlusTransfer) {
@@ -67,6 +81,21 @@ TEST_F(DramTest, PeakBandwidthIsReachedAndNotExceeded) {
   for (int i = 0; i < 1000; ++i) last = done(0, 64);
   EXPECT_EQ(last, 100U + 1000U * 4U);
   EXPECT_EQ(dram.stats(last).bus_busy_cycles, 4000U);
+}
+
+TEST_F(SlowClockDram, TimesAreWholeCyclesHoweverLong) {
+  for (Cycles i = 1; i < 8; ++i) EXPECT_EQ(done(0, 16), 10'000'000 + i);
+}
+
+TEST_F(SlowClockDram, AnswerThatSystemcCannotSayIsRefused) {
+  const Cycles last = ~std::uint64_t{0} / 999'000'999 - 1;
+  EXPECT_EQ(done(last - 10'000'001, 16), last);
+  try {
+    done(last - 10'000'001, 16);  // behind the one before
+    ADD_FAILURE() << "answered";
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("clock.frequency")) << error.what();
+  }
 }
 
 }  // namespace

@@ -21,8 +21,6 @@ namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr std::size_t kLongestLine = 256;
-// Far beyond any run, and far enough below 2^64 that no sum of times wraps.
-constexpr Cycles kLastArrival = Cycles{1} << 60;
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -131,7 +129,7 @@ void TextTrace::parse(std::string_view line, TraceAccess& access) const {
   if (!write) refuse(fmt::format("'{}' is neither READ nor WRITE", printable(command)));
   const auto time = parse_number<Cycles>(arrival, 10);
   if (!time || *time > kLastArrival) {
-    refuse(fmt::format("'{}' is no arrival in memory cycles (0 to 2^60)", printable(arrival)));
+    refuse(fmt::format("'{}' is no arrival in memory cycles (0 to 2^52)", printable(arrival)));
   }
   if (*time < last_arrival_) {
     refuse(fmt::format("arrival {} is before the last one, {}; sort the trace by arrival", *time,

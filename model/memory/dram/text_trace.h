@@ -14,11 +14,15 @@
 
 namespace sheaf {
 
+/// The last arrival that a memory driven alone takes, in tCK: weeks, and far enough below 2^64 that
+/// times summed over all ranks of all channels, of which there are at most 1024, do not wrap.
+inline constexpr Cycles kLastArrival = Cycles{1} << 52;
+
 /// One line of a memory trace.
 struct TraceAccess {
   Address address = 0;
   bool write = false;
-  Cycles arrival = 0;  ///< tCK
+  Cycles arrival = 0;  ///< tCK, up to kLastArrival
 };
 
 /// Reads a memory trace line by line, in DRAMsim3's form: address in hexadecimal, command, arrival

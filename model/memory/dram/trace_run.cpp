@@ -40,7 +40,7 @@ TraceRun::TraceRun(const DramDevice& device, Bytes bytes)
 void TraceRun::take(const DramSystem::Done& done) {
   (done.write ? result_.write_latency : result_.read_latency).record(done.at - done.accepted);
   const Cycles wait = done.accepted - done.arrival;
-  result_.sum_waits += wait;
+  result_.sum_waits += static_cast<double>(wait);
   result_.max_wait = std::max(result_.max_wait, wait);
   result_.end = std::max(result_.end, done.at);
 }
@@ -75,8 +75,8 @@ void report_trace_run(const TraceRun& run, StatsTree& stats) {
   report_latency("memory.read_latency", result.read_latency, stats);
   report_latency("memory.write_latency", result.write_latency, stats);
   stats.add_ratio("memory.wait.mean", result.sum_waits,
-                  result.read_latency.num() + result.write_latency.num(), "tCK",
-                  "Mean wait for room in a queue, not in the latency");
+                  static_cast<double>(result.read_latency.num() + result.write_latency.num()),
+                  "tCK", "Mean wait for room in a queue, not in the latency");
   stats.add("memory.wait.max", result.max_wait, "tCK", "Longest wait for room in a queue");
   stats.add_real("memory.bandwidth", result.bandwidth(device.clock_hz), "bytes/s",
                  "Bytes over the time from the first arrival to the last byte");

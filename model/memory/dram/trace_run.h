@@ -29,10 +29,13 @@ class TraceRun {
 
   struct Result {
     LatencyRecord read_latency, write_latency;  ///< tCK
-    Cycles sum_waits = 0, max_wait = 0;         ///< tCK, for room in the queue
-    std::uint64_t num_wrapped = 0;              ///< accesses beyond the capacity
-    Bytes bytes = 0;                            ///< asked for
-    Cycles first_arrival = 0, end = 0;          ///< tCK; end: last byte
+    /// tCK, for room in the queue. The sum grows with the square of the number of accesses if
+    /// these come faster than they are served, so that 64 bits would not hold it.
+    double sum_waits = 0;
+    Cycles max_wait = 0;
+    std::uint64_t num_wrapped = 0;      ///< accesses beyond the capacity
+    Bytes bytes = 0;                    ///< asked for
+    Cycles first_arrival = 0, end = 0;  ///< tCK; end: last byte
     DramChannelStats channels;
 
     /// Bytes a second from the first arrival to the last byte; 0 for no access.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "memory/dram/energy.h"
+#include "memory/dram/trace_run.h"
 #include "unit/memory/dram_bench.h"
 
 namespace sheaf::test {
@@ -49,6 +50,25 @@ TEST(DramEnergy, Hbm2ReadsCostThePublishedEnergyABit) {
   DramChannelStats counts;
   counts.num_read_bursts = 1;
   EXPECT_NEAR(item(dram_energy(resolve_dram(spec), counts, 0), "read") / 256, 3.48, 1e-9);
+}
+
+double reported(const TraceRun& run, const std::string& path) {
+  StatsTree stats;
+  report_trace_run(run, stats);
+  return std::get<double>(stats.find(path)->value);
+}
+
+// 4096 banks: the sums over channels and ranks are 256 times as long as the run.
+TEST(DramEnergy, TheLongestRunWrapsNoSumOverRanks) {
+  TraceRun run(ddr4([](DramSpec& spec) { spec.channels = 64, spec.ranks = 4; }), 64);
+  run.add({.address = 0, .write = false, .arrival = kLastArrival});
+  run.finish();
+  const double cycles = 256.0 * 0x1p52;  // of all ranks; a row is open in next to none
+  EXPECT_NEAR(reported(run, "memory.energy.precharge_standby") / (9.6 * 34 * cycles / 1.2), 1.0,
+              1e-9);
+  const double queued = static_cast<double>(run.result().channels.queue_occupancy_cycles);
+  EXPECT_GT(queued, 0);
+  EXPECT_NEAR(reported(run, "memory.mean_queued") / (queued / (64 * 0x1p52)), 1.0, 1e-9);
 }
 
 }  // namespace

@@ -79,6 +79,12 @@ TEST_F(TextTraceTest, RefusesArrivalsThatGoBack) {
             std::string::npos);
 }
 
+TEST_F(TextTraceTest, ArrivalsEndWhereSumsOfThemWouldWrap) {
+  EXPECT_EQ(read("0x40 READ 4503599627370496\n").back().arrival, kLastArrival);
+  EXPECT_NE(refusal("0x40 READ 4503599627370497\n").find(":1: '4503599627370497' is no arrival"),
+            std::string::npos);
+}
+
 TEST_F(TextTraceTest, RefusesEndlessLines) {
   EXPECT_NE(refusal("0x40 READ 1\n" + std::string(1'000'000, 'a')).find(":2: line too long"),
             std::string::npos);
