@@ -35,11 +35,10 @@ bool shapes_rays(std::string_view key) {
 
 /// The recorded configuration with what the user sets over it, if the trace allows that.
 template <typename Forbidden>
-Config replay_config(const ReplayOptions& options, const BaseConfig& base,
+Config replay_config(const ReplayOptions& options, const RecordedConfig& recorded,
                      const char* recorded_things, const Forbidden& is_forbidden) {
-  const Config recorded = resolve_config_over(base, std::nullopt, {});
-  Config config = resolve_config_over(base, options.config, options.settings);
-  for (const std::string& key : changed_keys(recorded, config)) {
+  Config config = resolve_config_over(recorded.base, options.config, options.settings);
+  for (const std::string& key : changed_keys(recorded.config, config)) {
     if (key == "image.heat_maps") {
       throw Error(ExitCode::kUsage,
                   fmt::format("{}: a replay makes no pictures; leave image.heat_maps as it was "

@@ -114,7 +114,7 @@ void put_line(const LineAccess& access, Format format, std::string& text) {
 }  // namespace
 
 void export_trace(const TraceOptions& options, TraceReader& reader, const TraceMetadata& metadata) {
-  const Config config = resolve_config_over(recorded_config(reader, metadata), std::nullopt, {});
+  const Config config = recorded_config(reader, metadata).config;
   std::error_code ignored;
   if (fs::equivalent(options.out, options.trace, ignored)) {
     throw Error(ExitCode::kUsage,

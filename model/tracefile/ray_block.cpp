@@ -116,8 +116,9 @@ void decode_ray_block(ByteSpan raw, std::uint64_t number, std::uint32_t num_rays
     ray.contributes = (flags[i] & kContributesFlag) != 0;
     packet += static_cast<std::uint64_t>(unzigzag(packets[i]));
     ray.packet = packet;
-    if (counts[i] > raw.size() / kLeastChildBytes - num_children)
+    if (counts[i] > raw.size() / kLeastChildBytes - num_children) {
       throw BadColumn("a ray has too many children");
+    }
     ray.first_child = first_child + static_cast<std::uint32_t>(num_children);
     ray.num_children = static_cast<std::uint32_t>(counts[i]);
     num_children += counts[i];

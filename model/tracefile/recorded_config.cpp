@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace sheaf {
 namespace {
 
@@ -22,9 +24,9 @@ std::uint64_t num_lines(const Config& c) {
 
 }  // namespace
 
-BaseConfig recorded_config(const TraceReader& reader, const TraceMetadata& metadata) {
+RecordedConfig recorded_config(const TraceReader& reader, const TraceMetadata& metadata) {
   BaseConfig base{metadata.config, reader.path().string() + ", recorded configuration"};
-  const Config config = resolve_config_over(base, std::nullopt, {});
+  Config config = resolve_config_over(base, std::nullopt, {});
   const std::uint64_t lines = num_lines(config);
   if (lines > kMaxRecordedLines) {
     reader.refuse(0, fmt::format("the caches of its recorded configuration have {} lines, more "
@@ -38,7 +40,7 @@ BaseConfig recorded_config(const TraceReader& reader, const TraceMetadata& metad
                                  "holds {} rays",
                                  pixels, reader.num_records()));
   }
-  return base;
+  return {std::move(base), std::move(config)};
 }
 
 }  // namespace sheaf

@@ -38,8 +38,7 @@ void make_curves(const std::filesystem::path& path) {
 void filter_requests(const std::filesystem::path& path) {
   sheaf::TraceReader reader(path);
   const sheaf::TraceMetadata metadata = sheaf::read_metadata(reader);
-  const sheaf::Config config =
-      sheaf::resolve_config_over(sheaf::recorded_config(reader, metadata), std::nullopt, {});
+  const sheaf::Config config = sheaf::recorded_config(reader, metadata).config;
   sheaf::MemoryAccesses accesses(reader, metadata.memory);
   sheaf::DramRequests requests(config, metadata.memory, [](const sheaf::LineAccess& access) {
     if (access.bytes == 0) std::abort();
