@@ -8,20 +8,24 @@
 namespace sheaf::stability {
 namespace {
 
-ClosedMesh sphere(std::string name, std::string extreme, int rings, int sectors, float scale,
-                  float offset) {
-  ClosedMesh closed{std::move(name), std::move(extreme), bumpy_sphere(rings, sectors, 0.0F)};
-  closed.centre = scale * offset * Vec3(1.0F, -1.0F, 1.0F);
-  closed.mesh.transform(scale, closed.centre);
-  closed.inner = 0.4F * scale;
-  closed.outer = 3.0F * scale;
-  return closed;
+Vec3 centre_of(float scale, float offset) {
+  return scale * offset * Vec3(1.0F, -1.0F, 1.0F);
 }
 
 Mesh moved_sphere(float scale, float offset, int rings = 40, int sectors = 60) {
   Mesh mesh = bumpy_sphere(rings, sectors, 0.0F);
-  mesh.transform(scale, scale * offset * Vec3(1.0F, -1.0F, 1.0F));
+  mesh.transform(scale, centre_of(scale, offset));
   return mesh;
+}
+
+ClosedMesh sphere(std::string name, std::string extreme, int rings, int sectors, float scale,
+                  float offset) {
+  ClosedMesh closed{std::move(name), std::move(extreme),
+                    moved_sphere(scale, offset, rings, sectors)};
+  closed.centre = centre_of(scale, offset);
+  closed.inner = 0.4F * scale;
+  closed.outer = 3.0F * scale;
+  return closed;
 }
 
 /// Triangles as large as the scene whose planes pass near the origin, where coordinates are small
