@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "energy/counts.h"
 #include "energy/operations.h"
@@ -326,8 +325,7 @@ void report_items(const Run& run, StatsTree& stats) {
   for (const Item& item : kItems) {
     const Energy energy = item.of(run);
     if (!energy.built) continue;
-    stats.add_real(fmt::format("energy.{}", item.unit), item.info,
-                   energy.picojoule.value_or(std::numeric_limits<double>::quiet_NaN()));
+    stats.add_real(fmt::format("energy.{}", item.unit), item.info, energy.picojoule);
     known += energy.picojoule.value_or(0);
     if (!energy.picojoule) append(unknown_items, fmt::format("{}.{}", item.unit, item.info.name));
   }

@@ -19,16 +19,20 @@ void StatsTree::add(std::string path, std::uint64_t value, std::string_view unit
   add_entry({std::move(path), value, std::string(unit), std::string(meaning)});
 }
 
-void StatsTree::add_real(std::string path, double value, std::string_view unit,
+void StatsTree::add_real(std::string path, std::optional<double> value, std::string_view unit,
                          std::string_view meaning) {
   StatsEntry entry{std::move(path), {}, std::string(unit), std::string(meaning)};
-  if (std::isfinite(value)) entry.value = value;
+  if (value && !std::isfinite(*value)) {
+    throw std::logic_error("not a finite number: " + entry.path);
+  }
+  if (value) entry.value = *value;
   add_entry(std::move(entry));
 }
 
 void StatsTree::add_quotient(std::string path, double numerator, double denominator,
                              std::string_view unit, std::string_view meaning) {
-  const double quotient = denominator == 0 ? std::nan("") : numerator / denominator;
+  std::optional<double> quotient;
+  if (denominator != 0) quotient = numerator / denominator;
   add_real(std::move(path), quotient, unit, meaning);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -13,7 +14,7 @@
 
 namespace sheaf {
 
-/// No value: a ratio of nothing to nothing, or a number that is not finite.
+/// No value: a ratio of nothing to nothing, or what is not known.
 using StatsValue = std::variant<std::monostate, std::uint64_t, double, std::string>;
 
 /// One line of a report.
@@ -30,8 +31,9 @@ class StatsTree {
  public:
   void add(std::string path, std::uint64_t value, std::string_view unit, std::string_view meaning);
 
-  /// A value that is not finite is reported as none.
-  void add_real(std::string path, double value, std::string_view unit, std::string_view meaning);
+  /// A value that is there but not finite is a bug of what made it: throws std::logic_error.
+  void add_real(std::string path, std::optional<double> value, std::string_view unit,
+                std::string_view meaning);
 
   /// numerator / denominator; none if the denominator is zero.
   template <typename Number>
@@ -47,7 +49,7 @@ class StatsTree {
   void add(std::string_view prefix, const CounterInfo& info, std::uint64_t value) {
     add(path_of(prefix, info), value, info.unit, info.meaning);
   }
-  void add_real(std::string_view prefix, const CounterInfo& info, double value) {
+  void add_real(std::string_view prefix, const CounterInfo& info, std::optional<double> value) {
     add_real(path_of(prefix, info), value, info.unit, info.meaning);
   }
   template <typename Number>

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "system/reported_values.h"
 
@@ -11,11 +12,12 @@ namespace sheaf {
 
 void report_estimate(const CounterInfo& quantity, const Estimate& estimate, StatsTree& stats) {
   const std::string path = "estimate." + std::string(quantity.name);
-  const auto add = [&](const CounterInfo& info, double value) {
+  const auto add = [&](const CounterInfo& info, std::optional<double> value) {
     const std::string meaning = std::string(quantity.meaning) + ": " + std::string(info.meaning);
     stats.add_real(path + '.' + std::string(info.name), value, quantity.unit, meaning);
   };
-  add(EstimateValues::value, estimate.value);
+  const bool is_none = std::isnan(estimate.value);
+  add(EstimateValues::value, is_none ? std::nullopt : std::optional(estimate.value));
   if (std::isnan(estimate.low)) return;
   add(EstimateValues::ci95_low, estimate.low);
   add(EstimateValues::ci95_high, estimate.high);
@@ -33,17 +35,16 @@ void report_frame_length(const Estimate& cycles, double frequency, StatsTree& st
 }
 
 void report_analytic(const AnalyticModel& model, const Config& config, StatsTree& stats) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const TileWork frame = model.frame();
   for (const Quantity& quantity : observed_quantities()) {
     const auto value = static_cast<double>(frame.seen[quantity.total]);
     const double per =
         quantity.per == Observed::kNone ? 1.0 : static_cast<double>(frame.seen[quantity.per]);
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    report_estimate(quantity.info, {value / per, none, none}, stats);
+    report_estimate(quantity.info, {per == 0 ? kNone : value / per, kNone, kNone}, stats);
   }
   stats.add_counters("bound", frame.bounds);
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  report_frame_length({static_cast<double>(frame.seen[Observed::kCycles]), none, none},
+  report_frame_length({static_cast<double>(frame.seen[Observed::kCycles]), kNone, kNone},
                       config.clock.frequency, stats);
 }
 

@@ -27,7 +27,8 @@ SHEAF_VALUES(EstimateValues, SHEAF_ESTIMATE_VALUES);
   X(cycles_ci95_high, "cycles", "sampled: upper end")
 SHEAF_VALUES(FrameEstimateValues, SHEAF_FRAME_ESTIMATE_VALUES);
 
-/// As estimate.<quantity>. An estimate without an interval (low and high NaN) is reported as that.
+/// As estimate.<quantity>: as none if there is no estimate (NaN), as one number if it has no
+/// interval (low and high NaN).
 void report_estimate(const CounterInfo& quantity, const Estimate& estimate, StatsTree& stats);
 
 /// The estimated length of the frame where a simulated one would stand.

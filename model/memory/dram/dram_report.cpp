@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "memory/dram/dram_report.h"
 
-#include <limits>
-
 namespace sheaf {
 
 void report_dram(const std::string& path, const DramDevice& device, const DramChannelStats& counts,
@@ -22,10 +20,7 @@ void report_dram(const std::string& path, const DramDevice& device, const DramCh
                   end * device.organization.channels);
   const std::vector<DramEnergyItem> items = dram_energy(device, counts, end);
   const std::string energy = path + ".energy";
-  for (const DramEnergyItem& item : items) {
-    stats.add_real(energy, item.what,
-                   item.picojoule.value_or(std::numeric_limits<double>::quiet_NaN()));
-  }
+  for (const DramEnergyItem& item : items) stats.add_real(energy, item.what, item.picojoule);
   stats.add_real(energy, DramEnergyValues::known, known_energy(items));
   stats.add_text(energy, DramEnergyValues::source, std::string(device.energy.source));
 }
