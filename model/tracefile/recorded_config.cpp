@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "base/errors.h"
+
 namespace sheaf {
 namespace {
 
@@ -22,11 +24,20 @@ std::uint64_t num_lines(const Config& c) {
          lines_of(c.film_cache) + lines_of(c.l2);
 }
 
+// Nobody typed it: what is wrong with it is wrong with the trace.
+Config resolve(const BaseConfig& base) {
+  try {
+    return resolve_config_over(base, std::nullopt, {});
+  } catch (const Error& problem) {
+    throw Error(ExitCode::kTrace, problem.what());
+  }
+}
+
 }  // namespace
 
 RecordedConfig recorded_config(const TraceReader& reader, const TraceMetadata& metadata) {
   BaseConfig base{metadata.config, reader.path().string() + ", recorded configuration"};
-  Config config = resolve_config_over(base, std::nullopt, {});
+  Config config = resolve(base);
   const std::uint64_t lines = num_lines(config);
   if (lines > kMaxRecordedLines) {
     reader.refuse(0, fmt::format("the caches of its recorded configuration have {} lines, more "

@@ -6,7 +6,9 @@
 #include <array>
 
 #include "gltf_builder.h"
+#include "scene/gltf_json.h"
 #include "scene/gltf_limits.h"
+#include "scene/gltf_refusal.h"
 
 namespace sheaf::test {
 namespace {
@@ -16,6 +18,16 @@ long peak_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss / 1024;
+}
+
+TEST(RefuseLimits, MoreJsonThanIsRead) {
+  try {
+    (void)gltf::parse_gltf_json(std::string(gltf::kMaxJsonBytes + 1, ' '));
+    ADD_FAILURE() << "read";
+  } catch (const gltf::Refusal& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("268435457 bytes of JSON"), std::string::npos)
+        << refusal.what();
+  }
 }
 
 TEST(RefuseLimits, CountsThatNoBufferBacks) {

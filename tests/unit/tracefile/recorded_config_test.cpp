@@ -12,16 +12,15 @@
 namespace sheaf {
 namespace {
 
-/// What refuses the configuration of a trace of so many records; empty if nothing does.
-std::string refusal_of(TraceKind kind, std::uint32_t num_records,
-                       const std::vector<std::string>& settings) {
+/// What refuses the configuration `text` of a trace of so many records; empty if nothing does.
+std::string refusal_of(TraceKind kind, std::uint32_t num_records, const std::string& text) {
   const test::ScratchFolder scratch;
   TraceWriter writer(scratch / "some.trace", {kind, {}, {}});
   writer.add(0, num_records, [] { return ByteVector{1}; });
   writer.finish("{}");
   const TraceReader reader(scratch / "some.trace");
   TraceMetadata metadata;
-  metadata.config = config_toml(resolve_config({}, settings), Comments::kNone);
+  metadata.config = text;
   try {
     static_cast<void>(recorded_config(reader, metadata));
   } catch (const Error& error) {
@@ -29,6 +28,19 @@ std::string refusal_of(TraceKind kind, std::uint32_t num_records,
     return error.what();
   }
   return {};
+}
+
+std::string refusal_of(TraceKind kind, std::uint32_t num_records,
+                       const std::vector<std::string>& settings) {
+  return refusal_of(kind, num_records, config_toml(resolve_config({}, settings), Comments::kNone));
+}
+
+TEST(RecordedConfig, ThatIsNoneIsTheTracesFault) {
+  EXPECT_NE(refusal_of(TraceKind::kMemory, 1, "[l2]\ncolour = 3\n")
+                .find("some.trace, recorded configuration"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(TraceKind::kRays, 1, "[l2]\nways = -1\n").find("l2.ways"),
+            std::string::npos);
 }
 
 TEST(RecordedConfig, MayHaveSoManyLinesOfAllCachesAndNotOneMore) {
