@@ -106,7 +106,7 @@ TEST_F(HostileTrace, IsRefusedByTheFirstByteTooMany) {
   expect_refused(run_sheaf({"trace", "verify", trace_}), "touch more than there can be");
 }
 
-TEST_F(HostileTrace, OfManyCachesThatNothingUsesHasSmallCurves) {
+TEST_F(HostileTrace, OfManyCachesThatNothingUsesTakesLittleMemory) {
   write(1, 8, 4, 0, [](json& all) {
     json& streams = all["memory"]["streams"];
     for (std::size_t i = 1; i < 256; ++i) {
