@@ -12,6 +12,7 @@
 #include "apps/frame_run.h"
 #include "apps/shared_options.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
 #include "report/result_folder.h"

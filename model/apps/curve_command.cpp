@@ -11,9 +11,9 @@
 #include <iterator>
 
 #include "apps/exit_codes.h"
-#include "apps/frame_run.h"
 #include "apps/shared_options.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "report/plot.h"
 #include "report/result_folder.h"
 #include "report/table.h"

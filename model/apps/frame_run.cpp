@@ -4,13 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 
 #include "apps/simulate_frame.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "config/config_text.h"
 #include "energy/energy_report.h"
 #include "report/images.h"
@@ -23,16 +22,6 @@
 
 namespace sheaf {
 namespace {
-
-// Written by a signal handler, read by any thread.
-std::atomic<bool> interrupt_seen = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// Asks the run to end with what it has; a second signal ends the process.
-void on_interrupt(int signal) {
-  interrupt_seen = true;
-  std::signal(signal, SIG_DFL);
-}
 
 Vec3 to_vec(const Triple& t) {
   return {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)};
@@ -81,15 +70,6 @@ std::optional<std::filesystem::path> tree_folder(const std::string& option) {
   if (option.empty()) return TreeCache::default_folder();
   if (option == "none") return {};
   return option;
-}
-
-void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-}
-
-bool interrupted() {
-  return interrupt_seen;
 }
 
 PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,

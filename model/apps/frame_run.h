@@ -22,10 +22,6 @@ namespace sheaf {
 /// The folder that --cache names: TreeCache::default_folder() if empty, none if "none".
 [[nodiscard]] std::optional<std::filesystem::path> tree_folder(const std::string& option);
 
-/// SIGINT and SIGTERM ask the run to end with what it has; a second one ends the process.
-void catch_interrupts();
-[[nodiscard]] bool interrupted();
-
 /// Loads a scene as the configuration has it, with notes on standard error, and prepares it.
 /// Throws Error for what the user can mend.
 [[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& file, const Config& config,

@@ -10,6 +10,7 @@
 #include "apps/frame_run.h"
 #include "apps/shared_options.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "config/config_text.h"
 #include "report/progress.h"
 #include "report/replay_summary.h"

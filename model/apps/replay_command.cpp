@@ -15,6 +15,7 @@
 #include "apps/parent_death.h"
 #include "apps/shared_options.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "base/text.h"
 #include "config/config_text.h"
 #include "tracefile/ray_lookup.h"

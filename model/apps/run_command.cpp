@@ -15,6 +15,7 @@
 #include "apps/recording.h"
 #include "apps/shared_options.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "config/config_text.h"
 #include "config/read_config.h"
 #include "scene/load_gltf.h"

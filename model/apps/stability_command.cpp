@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "apps/frame_run.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "report/progress.h"
 #include "report/result_folder.h"
 #include "stability/report.h"

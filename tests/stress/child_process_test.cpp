@@ -3,9 +3,13 @@
 #include "stability/child_process.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+
+#include "base/errors.h"
+#include "base/interrupt.h"
 
 namespace sheaf::stability {
 namespace {
@@ -37,6 +41,21 @@ TEST(ChildProcess, ThatNeverStopsComputingIsEnded) {
     for (volatile unsigned i = 0;;) i = i + 1;
   };
   EXPECT_EQ(run_in_child(compute, {.cpu_seconds = 1, .wall_seconds = 600}), "ended by signal 9");
+}
+
+TEST(ChildProcess, IsEndedIfThisProcessIsAskedToStop) {
+  catch_interrupts();
+  const auto ask = []() -> std::string {
+    kill(getppid(), SIGTERM);
+    for (;;) pause();
+  };
+  try {
+    (void)run_in_child(ask, {.cpu_seconds = 60, .wall_seconds = 3000});
+    ADD_FAILURE() << "ended by itself";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInterrupted);
+  }
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "the job is still there";
 }
 
 }  // namespace
