@@ -8,7 +8,7 @@ namespace sheaf {
 /// process.
 void catch_interrupts();
 
-/// Whether one has come. Of any thread.
+/// Whether one has come. May be called from any thread.
 [[nodiscard]] bool interrupted();
 
 }  // namespace sheaf

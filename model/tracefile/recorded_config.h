@@ -21,7 +21,7 @@ struct RecordedConfig {
 };
 
 /// It comes with the file, so that it is not trusted as a user's own is: throws Error(kTrace) if it
-/// asks for more lines or pixels than above, Error(kUsage) if it is none.
+/// asks for more lines or pixels than above, or is none.
 [[nodiscard]] RecordedConfig recorded_config(const TraceReader& reader,
                                              const TraceMetadata& metadata);
 
